@@ -1,0 +1,32 @@
+// Files that appear whole or not at all.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace shbake {
+
+/// Writes beside the target and renames over it on commit(). Destroyed without commit(), it leaves nothing behind and an
+/// existing target untouched. A target that is not a regular file ("/dev/stdout", a pipe) is written directly.
+class AtomicFile {
+ public:
+  /// Throws an Error naming `path` when its folder cannot be written.
+  explicit AtomicFile(std::string path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// Appends bytes (buffered). Throws an Error naming the file and the cause, such as a full disk.
+  void write(const void* data, std::size_t bytes);
+  void write(std::string_view text) { write(text.data(), text.size()); }
+  /// Flushes, fsyncs and renames onto the target.
+  void commit();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace shbake

@@ -1,0 +1,54 @@
+// Baked light transfer: coefficients, stated errors and the facts needed to use them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace shbake {
+
+/// How much of the light's way the transfer accounts for.
+enum class TransferKind { unshadowed, shadowed, interreflected };
+
+/// The name used on the command line and in files: "unshadowed", "shadowed", "interreflected".
+const char* transferName(TransferKind kind);
+
+/// SH transfer vectors of a list of points (design: conventions "Basis" and "Units").
+/// Outgoing radiance of point p in channel c under light L is the sum over i of L_i * at(p, c)[i].
+struct TransferSet {
+  int order = 0;     ///< bands: order^2 coefficients a channel, degrees 0..order-1
+  int channels = 1;  ///< 1 where all albedo is grey, else 3 (red, green, blue)
+
+  std::vector<float> coefficients;  ///< points x channels x order^2, index l(l+1)+m fastest
+  std::vector<float> error;         ///< stated standard error of each point, relative to its unshadowed transfer; or empty
+  std::vector<float> visibility;    ///< cosine-weighted share of the sky that each point sees, 0..1; or empty
+
+  int coefficientsPerChannel() const { return order * order; }
+  std::size_t stride() const { return static_cast<std::size_t>(channels * order * order); }
+  std::size_t size() const { return stride() == 0 ? 0 : coefficients.size() / stride(); }
+  std::span<const float> at(std::size_t point, int channel) const {
+    return {coefficients.data() + point * stride() + static_cast<std::size_t>(channel) * order * order,
+            static_cast<std::size_t>(order * order)};
+  }
+};
+
+/// How a transfer set came about: written to and read from file headers.
+struct TransferFacts {
+  std::string version;  ///< of the shbake that baked
+  TransferKind kind = TransferKind::interreflected;
+  int bounces = 0;              ///< reflections summed; the number of solver steps where `bouncesConverged`
+  bool bouncesConverged = false;///< reflections were summed to the tolerance, not to a count
+  int rays = 0;                 ///< directions a point; 0 for the closed form
+  std::uint64_t seed = 0;
+  std::string sampler;          ///< "closed-form" or "cosine-fibonacci"
+  double rmsError = 0;          ///< area-weighted RMS of the stated errors
+  double maxError = 0;          ///< the largest stated error
+  double tolerance = 0;         ///< what was asked for; 0 when rays were given instead
+  std::size_t lightingPoints = 0;
+  std::size_t sourceVertices = 0;
+  std::string source;           ///< the mesh file's name without its folder
+};
+
+}  // namespace shbake
