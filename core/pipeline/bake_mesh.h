@@ -1,0 +1,53 @@
+// The whole way from a mesh to its baked transfer in one function.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bake/bake_options.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "mesh/lighting_points.h"
+#include "mesh/mesh.h"
+#include "transfer/transfer_set.h"
+
+namespace shbake {
+
+/// Where albedo is taken from.
+enum class AlbedoSource {
+  automatic,  ///< the file's colours where it has them (faces before vertices), else `uniform`
+  uniform,    ///< one value for the whole mesh
+  vertex,     ///< the file's vertex colours; an error where there are none
+  face,       ///< the file's face colours (MTL Kd); an error where there are none
+};
+
+struct AlbedoOptions {
+  AlbedoSource source = AlbedoSource::automatic;
+  Rgb uniform{0.8f, 0.8f, 0.8f};  ///< linear, 0..1
+  /// 8-bit colours are display values and sRGB-decoded, unless this says that they are linear already.
+  bool bytesAreLinear = false;
+};
+
+struct BakeMeshOptions {
+  LightingPointOptions points;
+  AlbedoOptions albedo;
+  BakeOptions bake;
+};
+
+/// A baked mesh, ready to be written: one transfer vector for each vertex of `mesh`.
+struct BakedMesh {
+  Mesh mesh;              ///< the input, with vertices split across creases appended, and with vertexNormals
+  TransferSet transfer;   ///< as many points as mesh.positions
+  std::vector<std::uint32_t> sourceVertex;  ///< the input's vertex behind each vertex; empty where they map 1:1
+  TransferFacts facts;
+  std::string albedoNote;             ///< what albedo was taken, for reports: "vertex colours, 8-bit sRGB decoded"
+  std::vector<std::string> warnings;  ///< what the user should know, one sentence each
+};
+
+/// Bakes `mesh`. `blockers` occlude and reflect but get no points of their own in the result.
+/// Throws Error: usage for options out of range, work for meshes without faces or too little memory, cancelled.
+BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshOptions& options,
+                   const Parallel& parallel, Progress& progress);
+
+}  // namespace shbake
