@@ -4,8 +4,13 @@ find_package(embree 3 REQUIRED)
 find_package(TBB REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
-find_package(OpenImageIO REQUIRED)
-# Debian 12's OpenImageIO target lists OpenCV's include directory, which exists only where libopencv-dev is installed.
-get_target_property(_oiio_includes OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
-list(FILTER _oiio_includes EXCLUDE REGEX "opencv")
-set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${_oiio_includes}")
+
+# Debian 12's own CMake files of OpenImageIO ask for its viewer and for OpenCV's headers, neither of which the library needs.
+find_path(OPENIMAGEIO_INCLUDE_DIR OpenImageIO/imageio.h REQUIRED)
+find_library(OPENIMAGEIO_LIBRARY OpenImageIO REQUIRED)
+find_library(OPENIMAGEIO_UTIL_LIBRARY OpenImageIO_Util REQUIRED)
+add_library(OpenImageIO::OpenImageIO UNKNOWN IMPORTED)
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
+  IMPORTED_LOCATION ${OPENIMAGEIO_LIBRARY}
+  INTERFACE_INCLUDE_DIRECTORIES ${OPENIMAGEIO_INCLUDE_DIR}
+  INTERFACE_LINK_LIBRARIES ${OPENIMAGEIO_UTIL_LIBRARY})
