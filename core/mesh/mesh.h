@@ -43,6 +43,7 @@ struct Mesh {
   std::vector<Property> faceProperties;    ///< carried through: F items each (repeated for triangles of one polygon)
   std::vector<PropertyElement> elements;   ///< elements that are neither vertices nor faces
   std::vector<std::string> comments;       ///< header comments, without the word "comment"
+  std::vector<std::string> warnings;       ///< what reading had to assume or leave out, one sentence each
 };
 
 }  // namespace shbake
