@@ -1,3 +1,4 @@
+// The one exception type of shbake: how its message is put together.
 #include "base/error.h"
 
 #include <utility>

@@ -18,10 +18,10 @@ class Error : public std::runtime_error {
  public:
   struct Parts {
     ErrorKind kind = ErrorKind::work;
-    std::string file;    ///< the file concerned, as the user named it
-    std::string place;   ///< the place in it: "line 12", "vertex 7", "header"
-    std::string cause;   ///< what is wrong
-    std::string remedy;  ///< what to do about it
+    std::string file{};    ///< the file concerned, as the user named it
+    std::string place{};   ///< the place in it: "line 12", "vertex 7", "header"
+    std::string cause{};   ///< what is wrong
+    std::string remedy{};  ///< what to do about it
   };
 
   explicit Error(Parts parts);

@@ -1,3 +1,4 @@
+// How much memory there is, by /proc, the control group and getrusage.
 #include "base/memory.h"
 
 #include <sys/resource.h>

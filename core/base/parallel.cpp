@@ -1,11 +1,14 @@
+// Loops over blocks of work, by oneTBB.
 #include "base/parallel.h"
 
+#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include "base/error.h"
@@ -18,6 +21,11 @@ struct Parallel::Arena {
 
 Parallel::Parallel(int threads) : threads_(threads) {
   if (threads < 0) throw usageError("the number of threads is negative", "use 0 for all cores");
+  if (threads > kMostThreads) {
+    throw usageError("the number of threads is above " + std::to_string(kMostThreads), "use 0 for all cores");
+  }
+  // Without this, oneTBB grants no more threads than there are cores, and says so on stderr when asked for more.
+  static const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kMostThreads);
   if (threads_ == 0) threads_ = tbb::info::default_concurrency();
   arena_ = std::make_unique<Arena>(tbb::task_arena(threads_));
 }

@@ -10,7 +10,9 @@ namespace shbake {
 /// A team of threads. Results never depend on how many there are: blocks have fixed bounds and sums a fixed order.
 class Parallel {
  public:
-  /// `threads` = 0 takes all cores; throws a usage error when negative.
+  static constexpr int kMostThreads = 1024;
+
+  /// `threads` = 0 takes all cores; throws a usage error when it is negative or above kMostThreads.
   explicit Parallel(int threads = 0);
   ~Parallel();
 
@@ -18,7 +20,8 @@ class Parallel {
 
   /// The work on one block: items begin..end-1 on worker 0..threads()-1. No two blocks run on one worker at once.
   using Block = std::function<void(std::size_t begin, std::size_t end, int worker)>;
-  /// Runs `body` over 0..count-1 in blocks of `blockSize`, in any order; the first exception stops the loop and is rethrown.
+  /// Runs `body` over 0..count-1 in blocks of `blockSize` (at least 1), in any order; the first exception stops the
+  /// loop and is rethrown. `body` must not start another loop: a worker that waits for it may be given a second block.
   void forBlocks(std::size_t count, std::size_t blockSize, const Block& body) const;
 
   /// Sums `body` over blocks of `blockSize` in index order, so that the rounding is the same on any number of threads.

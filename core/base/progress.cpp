@@ -1,3 +1,4 @@
+// Progress and cancelling: counts kept in atomics, reports under a mutex.
 #include "base/progress.h"
 
 #include <algorithm>
@@ -30,12 +31,16 @@ void Progress::advance(double amount) {
 
 bool Progress::tryAdvance(double amount) noexcept {
   done_.fetch_add(amount, std::memory_order_relaxed);
-  if (callback_ && Clock::now().time_since_epoch().count() >= nextReport_.load(std::memory_order_relaxed)) report(false);
+  if (callback_ && Clock::now().time_since_epoch().count() >= nextReport_.load(std::memory_order_relaxed))
+    report(false);
   return !cancelled_.load(std::memory_order_relaxed);
 }
 
 void Progress::end() {
-  done_ = state_.total;
+  {
+    const std::lock_guard lock(mutex_);
+    if (state_.total > 0) done_ = state_.total;
+  }
   report(true);
   if (cancelled_) throw cancelledError();
 }
@@ -49,6 +54,7 @@ void Progress::report(bool force) {
     return;
   }
   const auto now = Clock::now();
+  if (!force && now.time_since_epoch().count() < nextReport_) return;  // another thread was first
   nextReport_ = (now + kInterval).time_since_epoch().count();
   state_.done = state_.total > 0 ? std::min(done_.load(), state_.total) : done_.load();
   state_.elapsed = std::chrono::duration<double>(now - start_).count();

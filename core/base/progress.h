@@ -11,15 +11,15 @@ namespace shbake {
 
 /// What a progress callback is told.
 struct ProgressState {
-  std::string stage;      ///< what is being done, e.g. "tracing"
-  std::string unit;       ///< what is counted, e.g. "rays"
-  double done = 0;        ///< units finished, 0..total
-  double total = 0;       ///< units in all; 0 when unknown
-  double elapsed = 0;     ///< seconds since the stage began
+  std::string stage;   ///< what is being done, e.g. "tracing"
+  std::string unit;    ///< what is counted, e.g. "rays"
+  double done = 0;     ///< units finished, 0..total
+  double total = 0;    ///< units in all; 0 when unknown
+  double elapsed = 0;  ///< seconds since the stage began
 };
 
 /// Called at most every 50 ms, from any thread but never from two at once, and at the beginning and end of a stage.
-/// Returning false cancels the work: the running stage throws an Error of kind `cancelled`.
+/// Returning false cancels the work: the running stage throws an Error of kind `cancelled`. It must not throw.
 using ProgressCallback = std::function<bool(const ProgressState&)>;
 
 /// Counts finished work and hands it to a callback. All members but `begin` and `end` may be called from any thread.

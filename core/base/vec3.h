@@ -46,7 +46,7 @@ T length(Vec3<T> a) {
   return std::sqrt(dot(a, a));
 }
 
-/// `a` at unit length; the zero vector stays zero.
+/// `a` at unit length; a vector whose squared length is zero, or underflows to it, becomes zero.
 template <class T>
 Vec3<T> normalized(Vec3<T> a) {
   const T l = length(a);
@@ -58,7 +58,8 @@ bool isFinite(Vec3<T> a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-/// The angle between two vectors of any length in radians, accurate near 0 and pi (Kahan, "Mindless", 2006, section 12).
+/// The angle between two vectors of any length in radians, accurate near 0 and pi (Kahan, "How Futile are Mindless
+/// Assessments of Roundoff in Floating-Point Computation?", 2006, section 12).
 template <class T>
 T angleBetween(Vec3<T> a, Vec3<T> b) {
   const Vec3<T> u = a * length(b), v = b * length(a);
