@@ -1,14 +1,14 @@
 // Lighting points: the (position, normal) pairs that carry light, and how faces and the file's vertices refer to them.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <vector>
 
 #include "base/vec3.h"
 #include "mesh/mesh.h"
+#include "mesh/packed_lists.h"
+#include "mesh/work_frame.h"
 
 namespace shbake {
 
@@ -36,35 +36,15 @@ struct Albedo {
   }
 };
 
-/// The frame in which geometry is welded, traced and compared: centred on the bounding box and scaled by a power of two
-/// so that the largest half-extent is in (0.5, 1]. Scaling is exact; centring rounds once, to float.
-struct WorkFrame {
-  Vec3d centre;
-  double scale = 1;  ///< work units per file unit: a power of two
-
-  Vec3f toWork(const Vec3d& p) const { return Vec3f((p - centre) * scale); }
-};
-
-/// Lists of unequal length, packed: list i is items[starts[i]] .. items[starts[i+1]-1].
-struct PackedLists {
-  std::vector<std::uint32_t> starts{0};
-  std::vector<std::uint32_t> items;
-
-  std::span<const std::uint32_t> operator[](std::size_t i) const {
-    return {items.data() + starts[i], items.data() + starts[i + 1]};
-  }
-  std::size_t size() const { return starts.size() - 1; }
-};
-
 /// The lighting points of a mesh, and the record of how they came about. Points are numbered along a Morton curve, so
 /// that neighbours in number are neighbours in space. P positions, N points, F faces, V vertices of the mesh.
 struct LightingPoints {
   WorkFrame frame;
-  std::vector<Vec3f> positions;           ///< P distinct positions in work units
-  std::vector<Triangle> faces;            ///< F triples of position ids, wound so that the front is the side of the normals
-  std::vector<Triangle> facePoints;       ///< F triples of lighting points, corner by corner as in `faces`
-  std::vector<std::uint8_t> turned;       ///< F flags: corners 1 and 2 are exchanged against the mesh's triangle
-  PackedLists positionFaces;              ///< P lists of the faces that touch a position, on whatever side of a crease
+  std::vector<Vec3f> positions;      ///< P distinct positions in work units
+  std::vector<Triangle> faces;       ///< F triples of position ids, wound so that the front is the side of the normals
+  std::vector<Triangle> facePoints;  ///< F triples of lighting points, corner by corner as in `faces`
+  std::vector<std::uint8_t> turned;  ///< F flags: corners 1 and 2 are exchanged against the mesh's triangle
+  PackedLists positionFaces;         ///< P lists of the faces that touch a position, on whatever side of a crease
 
   std::vector<std::uint32_t> pointPosition;  ///< N position ids
   std::vector<Vec3f> pointNormal;            ///< N unit normals
@@ -76,15 +56,20 @@ struct LightingPoints {
   std::vector<Triangle> outputFaces;        ///< F triples of output vertices in the mesh's own winding
 
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+  /// Corners are numbered in 32 bits.
+  static constexpr std::size_t kMaxFaces = 0xFFFFFFFEu / 3;
 
   std::size_t size() const { return pointPosition.size(); }
 };
 
 /// Welds vertices into lighting points. Two corners share a point when their position (in work units, bit for bit),
-/// their normal (within 1e-6) and their albedo (exactly) agree.
-/// A corner without a usable normal in the file gets the smooth one; a corner of a degenerate face the mean of its
-/// position's others, or +z where there are none.
-/// Throws a usage error when the crease angle is outside 0..180, and a work error when the mesh has no faces.
+/// their normal (within 1e-6 per component) and their albedo (exactly) agree.
+/// A corner without a usable normal in the file (finite, not zero) gets the smooth one (smooth_normals.h); a corner
+/// that has none, as in a degenerate face, the mean of its position's others, or +z where there are none or they
+/// cancel. Points, positions and their numbers depend on the geometry, normals and albedo, not on the order of vertices
+/// and faces. Throws a usage error when the crease angle is outside 0..180 or the albedo's values do not fit the mesh,
+/// and a work error when the mesh has no faces, more than kMaxFaces, an index outside its vertices, or a position that
+/// is not finite.
 LightingPoints makeLightingPoints(const Mesh& mesh, const LightingPointOptions& options, const Albedo& albedo);
 
 }  // namespace shbake
