@@ -15,8 +15,8 @@ struct BakeOptions {
   int order = 4;
   /// Directions a point, 1..1048576, rounded up to a multiple of 16; 0: chosen from `tolerance`.
   int rays = 0;
-  /// Stated RMS error to reach, relative to the unshadowed transfer, 0.0001..1; used where `rays` is 0, and by `bounces`
-  /// = kBouncesAuto as the point where summing stops.
+  /// Stated RMS error to reach, relative to the unshadowed transfer, 0.0001..1; used where `rays` is 0, and by
+  /// `bounces` = kBouncesAuto as the point where summing stops.
   double tolerance = 0.01;
   /// Reflections to sum, 0..10000, or kBouncesAuto: as many as the tolerance needs.
   int bounces = kBouncesAuto;

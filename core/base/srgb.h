@@ -17,6 +17,8 @@ inline float linearToSrgb(float value) {
   return value <= 0.0031308f ? value * 12.92f : 1.055f * std::pow(value, 1 / 2.4f) - 0.055f;
 }
 
-inline Rgb srgbToLinear(const Rgb& c) { return {srgbToLinear(c.x), srgbToLinear(c.y), srgbToLinear(c.z)}; }
+inline Rgb srgbToLinear(const Rgb& c) {
+  return {srgbToLinear(c.x), srgbToLinear(c.y), srgbToLinear(c.z)};
+}
 
 }  // namespace shbake

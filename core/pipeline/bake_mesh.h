@@ -10,24 +10,10 @@
 #include "base/progress.h"
 #include "mesh/lighting_points.h"
 #include "mesh/mesh.h"
+#include "pipeline/albedo.h"
 #include "transfer/transfer_set.h"
 
 namespace shbake {
-
-/// Where albedo is taken from.
-enum class AlbedoSource {
-  automatic,  ///< the file's colours where it has them (faces before vertices), else `uniform`
-  uniform,    ///< one value for the whole mesh
-  vertex,     ///< the file's vertex colours; an error where there are none
-  face,       ///< the file's face colours (MTL Kd); an error where there are none
-};
-
-struct AlbedoOptions {
-  AlbedoSource source = AlbedoSource::automatic;
-  Rgb uniform{0.8f, 0.8f, 0.8f};  ///< linear, 0..1
-  /// 8-bit colours are display values and sRGB-decoded, unless this says that they are linear already.
-  bool bytesAreLinear = false;
-};
 
 struct BakeMeshOptions {
   LightingPointOptions points;
@@ -37,8 +23,8 @@ struct BakeMeshOptions {
 
 /// A baked mesh, ready to be written: one transfer vector for each vertex of `mesh`.
 struct BakedMesh {
-  Mesh mesh;              ///< the input, with vertices split across creases appended, and with vertexNormals
-  TransferSet transfer;   ///< as many points as mesh.positions
+  Mesh mesh;             ///< the input, with vertices split across creases appended, and with vertexNormals
+  TransferSet transfer;  ///< as many points as mesh.positions
   std::vector<std::uint32_t> sourceVertex;  ///< the input's vertex behind each vertex; empty where they map 1:1
   TransferFacts facts;
   std::string albedoNote;             ///< what albedo was taken, for reports: "vertex colours, 8-bit sRGB decoded"

@@ -1,0 +1,238 @@
+#include "bake/baker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "bake/direct_transfer.h"
+#include "bake/fixed_point.h"
+#include "bake/ray_scene.h"
+#include "bake/reflections.h"
+#include "bake/stated_error.h"
+#include "base/memory.h"
+#include "sh/basis.h"
+#include "sh/irradiance.h"
+
+namespace shbake {
+namespace {
+
+/// Reflections are summed until what is missing is this small a part of the tolerance on the stated error.
+constexpr double kSolverShare = 0.1;
+constexpr int kMaxSolverSteps = 200;
+/// Columns move in whole vectors of four floats.
+constexpr std::size_t kColumns = 4;
+
+class Baker {
+ public:
+  Baker(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, const BakeOptions& options,
+        const Parallel& parallel, Progress& progress)
+      : points_(points), wanted_(wanted), options_(options), parallel_(parallel), progress_(progress) {
+    result_.transfer.order = options.order;
+    result_.transfer.channels = hasColor() ? 3 : 1;
+    result_.transfer.coefficients.resize(points.size() * result_.transfer.stride());
+    result_.transfer.error.assign(points.size(), 0);
+    result_.transfer.visibility.assign(points.size(), 1);
+  }
+
+  PointBake run() {
+    if (options_.kind == TransferKind::unshadowed) {
+      bakeUnshadowed();
+    } else {
+      bakeTraced();
+    }
+    summarise();
+    return std::move(result_);
+  }
+
+ private:
+  bool hasColor() const {
+    return std::any_of(points_.pointAlbedo.begin(), points_.pointAlbedo.end(),
+                       [](const Rgb& a) { return a.x != a.y || a.y != a.z; });
+  }
+  bool isBlack() const {
+    return std::all_of(points_.pointAlbedo.begin(), points_.pointAlbedo.end(), [](const Rgb& a) { return a == Rgb(); });
+  }
+  bool isWanted(std::size_t p) const { return wanted_.empty() || wanted_[p] != 0; }
+  std::size_t count() const { return static_cast<std::size_t>(sh::coefficientCount(options_.order)); }
+
+  /// Writes a point's direct transfer of albedo 1, times its albedo, to every channel.
+  void store(std::size_t p, std::span<const float> direct) {
+    const Rgb& albedo = points_.pointAlbedo[p];
+    const float channel[] = {albedo.x, albedo.y, albedo.z};
+    float* out = &result_.transfer.coefficients[p * result_.transfer.stride()];
+    for (int c = 0; c < result_.transfer.channels; ++c) {
+      for (const float value : direct) *out++ = channel[c] * value;
+    }
+  }
+
+  void bakeUnshadowed() {
+    parallel_.forBlocks(points_.size(), 1024, [&](std::size_t begin, std::size_t end, int) {
+      std::vector<double> exact(count());
+      std::vector<float> direct(count());
+      for (std::size_t p = begin; p < end; ++p) {
+        sh::unshadowedTransfer(options_.order, normalized(Vec3d(points_.pointNormal[p])), 1, exact);
+        std::copy(exact.begin(), exact.end(), direct.begin());
+        store(p, direct);
+      }
+    });
+  }
+
+  void bakeTraced() {
+    const float maxDistance = static_cast<float>(options_.maxDistance * points_.frame.scale);
+    const RayScene scene(points_, maxDistance, parallel_.threads(), progress_);
+    const bool reflect = options_.kind == TransferKind::interreflected && options_.bounces != 0 && !isBlack();
+    const DirectionSet directions(options_.rays, options_.order);
+    result_.rays = directions.size();
+    if (reflect) {
+      const std::size_t memory = options_.memory > 0 ? options_.memory : availableMemory() / 2;
+      Reflections reflections(points_, scene, directions, options_.seed, options_.twoSided, memory / 2, parallel_);
+      traceWithHits(reflections, directions);
+      addReflections(reflections, memory / 2);
+    } else {
+      traceSky(scene, directions);
+    }
+  }
+
+  /// What one worker needs to turn a point's sky masks into its transfer.
+  struct Evaluator {
+    DirectTransfer direct;
+    std::vector<float> transfer;
+  };
+
+  void evaluate(Evaluator& e, std::uint32_t p, std::span<const std::uint16_t> sky, double spin, int rays) {
+    e.direct.evaluate(sky, Vec3d(points_.pointNormal[p]), spin, e.transfer);
+    store(p, e.transfer);
+    result_.transfer.visibility[p] = static_cast<float>(e.direct.visibility(sky));
+    result_.transfer.error[p] = static_cast<float>(directError(boundaryPairs(sky), rays, options_.order));
+  }
+
+  std::vector<Evaluator> makeEvaluators(const DirectionSet& directions) const {
+    return std::vector<Evaluator>(static_cast<std::size_t>(parallel_.threads()),
+                                  {DirectTransfer(directions), std::vector<float>(count())});
+  }
+
+  void traceSky(const RayScene& scene, const DirectionSet& directions) {
+    auto evaluators = makeEvaluators(directions);
+    std::vector<PointTracer> tracers;
+    for (int i = 0; i < parallel_.threads(); ++i)
+      tracers.emplace_back(points_, scene, directions, options_.seed, false);
+    progress_.begin("tracing", static_cast<double>(points_.size()) * directions.size(), "rays");
+    parallel_.forBlocks(points_.size(), Reflections::kBlock, [&](std::size_t begin, std::size_t end, int worker) {
+      const FlushDenormals flush;
+      PointTracer& tracer = tracers[static_cast<std::size_t>(worker)];
+      std::vector<std::uint16_t> sky(static_cast<std::size_t>(directions.groups()));
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto p = static_cast<std::uint32_t>(i);
+        if (isWanted(p)) {
+          tracer.look(p, sky);
+          evaluate(evaluators[static_cast<std::size_t>(worker)], p, sky, tracer.spin(p), directions.size());
+        }
+        progress_.advance(directions.size());
+      }
+    });
+    progress_.end();
+  }
+
+  void traceWithHits(Reflections& reflections, const DirectionSet& directions) {
+    auto evaluators = makeEvaluators(directions);
+    progress_.begin("tracing", static_cast<double>(points_.size()) * directions.size(), "rays");
+    reflections.trace(
+        [&](std::uint32_t p, double spin, std::span<const std::uint16_t> sky, std::span<const Hit>, int worker) {
+          evaluate(evaluators[static_cast<std::size_t>(worker)], p, sky, spin, directions.size());
+        },
+        progress_);
+    progress_.end();
+    result_.storedBytes = reflections.storedBytes();
+    result_.retracedPoints = reflections.forgottenPoints();
+  }
+
+  /// Solves T = direct + albedo * K T for each channel, as many columns at a time as the memory allows.
+  void addReflections(Reflections& reflections, std::size_t memory) {
+    const std::size_t padded = (count() + kColumns - 1) / kColumns * kColumns;
+    const std::size_t perColumn = points_.size() * sizeof(float) * 2 * (kFixedPointWindow + 1);
+    const std::size_t batch = std::clamp(memory / perColumn / kColumns * kColumns, kColumns, padded);
+    progress_.begin("reflecting", 0, "reflections");
+    for (int channel = 0; channel < result_.transfer.channels; ++channel) {
+      for (std::size_t first = 0; first < count(); first += batch) {
+        reflectColumns(reflections, channel, first, std::min(batch, padded - first));
+      }
+    }
+    progress_.end();
+  }
+
+  float albedo(std::size_t p, int channel) const {
+    const Rgb& a = points_.pointAlbedo[p];
+    return channel == 0 ? a.x : channel == 1 ? a.y : a.z;
+  }
+
+  void reflectColumns(Reflections& reflections, int channel, std::size_t first, std::size_t columns) {
+    const std::size_t n = points_.size(), real = std::min(columns, count() - first);
+    const std::size_t offset = static_cast<std::size_t>(channel) * count() + first, stride = result_.transfer.stride();
+    std::vector<float>& coefficients = result_.transfer.coefficients;
+    const auto map = [&](const float* in, float* out) {
+      reflections.gather(in, out, columns, progress_);
+      parallel_.forBlocks(n, 4096, [&](std::size_t begin, std::size_t end, int) {
+        for (std::size_t p = begin; p < end; ++p) {
+          const float rho = albedo(p, channel);
+          float* row = out + p * columns;
+          const float* direct = &coefficients[p * stride + offset];
+          for (std::size_t k = 0; k < real; ++k) row[k] = direct[k] + rho * row[k];
+        }
+      });
+      progress_.advance(1);
+    };
+    std::vector<float> x(n * columns);
+    for (std::size_t p = 0; p < n; ++p) std::copy_n(&coefficients[p * stride + offset], real, &x[p * columns]);
+    if (options_.bounces == BakeOptions::kBouncesAuto) {
+      const FixedPointOptions solver{kSolverShare * options_.tolerance * columnScale(channel), kMaxSolverSteps};
+      const FixedPointResult solved = solveFixedPoint(n, columns, x, map, solver, parallel_);
+      result_.bounces = std::max(result_.bounces, solved.steps);
+      result_.converged &= solved.converged;
+    } else {
+      std::vector<float> next(x.size());
+      for (int b = 0; b < options_.bounces; ++b) {
+        map(x.data(), next.data());
+        std::swap(x, next);
+      }
+      result_.bounces = options_.bounces;
+    }
+    for (std::size_t p = 0; p < n; ++p) std::copy_n(&x[p * columns], real, &coefficients[p * stride + offset]);
+  }
+
+  /// The norm over all points that a column of unshadowed transfer has on average.
+  double columnScale(int channel) const {
+    double sum = 0;
+    for (std::size_t p = 0; p < points_.size(); ++p) sum += std::pow(static_cast<double>(albedo(p, channel)), 2);
+    return std::sqrt(sum / static_cast<double>(count())) * sh::unshadowedNorm(options_.order);
+  }
+
+  void summarise() {
+    const std::vector<double> areas = pointAreas(points_);
+    double sum = 0, area = 0;
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      if (!isWanted(p)) continue;
+      const double e = static_cast<double>(result_.transfer.error[p]);
+      sum += areas[p] * e * e;
+      area += areas[p];
+      result_.maxError = std::max(result_.maxError, e);
+    }
+    result_.rmsError = area > 0 ? std::sqrt(sum / area) : 0;
+  }
+
+  const LightingPoints& points_;
+  const std::vector<std::uint8_t>& wanted_;
+  const BakeOptions& options_;
+  const Parallel& parallel_;
+  Progress& progress_;
+  PointBake result_;
+};
+
+}  // namespace
+
+PointBake bakePoints(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, const BakeOptions& options,
+                     const Parallel& parallel, Progress& progress) {
+  validate(options);
+  return Baker(points, wanted, options, parallel, progress).run();
+}
+
+}  // namespace shbake

@@ -1,0 +1,116 @@
+#include "bake/direct_transfer.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "sh/basis.h"
+
+namespace shbake {
+namespace {
+
+constexpr unsigned kAll = 0xFFFF;
+/// Groups summed in float before the sum moves to double: rounding stays near 1e-7 at any number of rays.
+constexpr std::size_t kChunk = 64;
+
+/// Adds the visible directions of groups first..last-1 to `total`. S is the table's stride, known to the compiler so
+/// that the running sums stay in registers. Groups that are wholly visible or mostly so start from their stored sum.
+template <std::size_t S>
+void addGroups(const DirectionSet& set, std::span<const std::uint16_t> sky, std::size_t first, std::size_t last,
+               double* total) {
+  std::array<float, S> sum{};
+  for (std::size_t g = first; g < last; ++g) {
+    unsigned bits = sky[g];
+    const int group = static_cast<int>(g);
+    const float* rows = set.basis(group * DirectionSet::kGroup);
+    if (std::popcount(bits) > DirectionSet::kGroup / 2) {
+      const float* whole = set.groupSum(group);
+      for (std::size_t k = 0; k < S; ++k) sum[k] += whole[k];
+      for (bits = kAll & ~bits; bits != 0; bits &= bits - 1) {
+        const float* row = rows + static_cast<std::size_t>(std::countr_zero(bits)) * S;
+        for (std::size_t k = 0; k < S; ++k) sum[k] -= row[k];
+      }
+    } else {
+      for (; bits != 0; bits &= bits - 1) {
+        const float* row = rows + static_cast<std::size_t>(std::countr_zero(bits)) * S;
+        for (std::size_t k = 0; k < S; ++k) sum[k] += row[k];
+      }
+    }
+  }
+  for (std::size_t k = 0; k < S; ++k) total[k] += static_cast<double>(sum[k]);
+}
+
+/// The same for orders above 8, where the table is read once a ray whatever is done.
+void addGroupsWide(const DirectionSet& set, std::span<const std::uint16_t> sky, std::size_t first, std::size_t last,
+                   double* total) {
+  for (std::size_t g = first; g < last; ++g) {
+    for (unsigned bits = sky[g]; bits != 0; bits &= bits - 1) {
+      const float* row = set.basis(static_cast<int>(g) * DirectionSet::kGroup + std::countr_zero(bits));
+      for (std::size_t k = 0; k < set.stride(); ++k) total[k] += static_cast<double>(row[k]);
+    }
+  }
+}
+
+using AddGroups = void (*)(const DirectionSet&, std::span<const std::uint16_t>, std::size_t, std::size_t, double*);
+
+AddGroups chooseKernel(std::size_t stride) {
+  switch (stride) {
+    case 4:
+      return addGroups<4>;  // orders 1, 2
+    case 12:
+      return addGroups<12>;  // order 3
+    case 16:
+      return addGroups<16>;
+    case 28:
+      return addGroups<28>;
+    case 36:
+      return addGroups<36>;
+    case 52:
+      return addGroups<52>;
+    case 64:
+      return addGroups<64>;  // order 8
+    default:
+      return addGroupsWide;
+  }
+}
+
+}  // namespace
+
+DirectTransfer::DirectTransfer(const DirectionSet& directions)
+    : directions_(directions),
+      rotation_(directions.order()),
+      local_(directions.stride()),
+      world_(static_cast<std::size_t>(sh::coefficientCount(directions.order()))) {}
+
+double DirectTransfer::visibility(std::span<const std::uint16_t> sky) const {
+  int visible = 0;
+  for (const std::uint16_t mask : sky) visible += std::popcount(mask);
+  return static_cast<double>(visible) / directions_.size();
+}
+
+void DirectTransfer::sum(std::span<const std::uint16_t> sky) {
+  const AddGroups add = chooseKernel(directions_.stride());
+  std::fill(local_.begin(), local_.end(), 0.0);
+  for (std::size_t first = 0; first < sky.size(); first += kChunk) {
+    add(directions_, sky, first, std::min(first + kChunk, sky.size()), local_.data());
+  }
+}
+
+void DirectTransfer::evaluate(std::span<const std::uint16_t> sky, const Vec3d& normal, double spin,
+                              std::span<float> out) {
+  const double v = visibility(sky);
+  const std::size_t count = world_.size();
+  if (v == 1) {
+    std::copy(directions_.unshadowed().begin(), directions_.unshadowed().end(), local_.begin());
+  } else if (v == 0) {
+    std::fill(out.begin(), out.end(), 0.0f);
+    return;
+  } else {
+    sum(sky);
+    for (std::size_t k = 0; k < count; ++k) local_[k] = local_[k] / directions_.size() + v * directions_.residual()[k];
+  }
+  rotation_.toWorld(normal, spin, std::span<const double>(local_.data(), count), world_);
+  for (std::size_t k = 0; k < count; ++k) out[k] = static_cast<float>(world_[k]);
+}
+
+}  // namespace shbake

@@ -1,0 +1,146 @@
+#include "bake/fan_test.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace shbake {
+namespace {
+
+/// The start lies this far (radians) above its own face: far more than the rounding of double cross products of float
+/// coordinates (1e-15), far less than any angle that a sampled direction resolves.
+constexpr double kStartHeight = 1e-6;
+/// Edges that rise less than this above the tangent plane block no measurable part of the sky (1e-12 of it).
+constexpr float kFlat = 1e-6f;
+
+}  // namespace
+
+int FanTest::edgeTo(std::uint32_t position, const Vec3f& origin) {
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    if (edges_[i].position == position) return static_cast<int>(i);
+  }
+  const Vec3d direction = normalized(Vec3d(points_.positions[position]) - Vec3d(origin));
+  edges_.push_back({position, direction, {}, 0});
+  return static_cast<int>(edges_.size()) - 1;
+}
+
+void FanTest::addArcs(std::uint32_t p) {
+  edges_.clear();
+  arcs_.clear();
+  const std::uint32_t position = points_.pointPosition[p];
+  const Vec3f origin = points_.positions[position];
+  for (const std::uint32_t f : points_.positionFaces[position]) {
+    const Triangle& t = points_.faces[f];
+    const std::size_t corner = t[0] == position ? 0 : t[1] == position ? 1 : 2;
+    const int from = edgeTo(t[(corner + 1) % 3], origin), to = edgeTo(t[(corner + 2) % 3], origin);
+    // Coincident faces are one wall, not two that cancel.
+    const bool known = std::any_of(arcs_.begin(), arcs_.end(), [&](const Arc& a) {
+      return (a.from == from && a.to == to) || (a.from == to && a.to == from);
+    });
+    if (known) continue;
+    arcs_.push_back({f, from, to, {}, true});
+    ++edges_[static_cast<std::size_t>(from)].uses;
+    ++edges_[static_cast<std::size_t>(to)].uses;
+  }
+}
+
+bool FanTest::chooseStart(std::uint32_t p, const Vec3d& normal, Vec3d& start) const {
+  double widest = -1;
+  for (const Arc& arc : arcs_) {
+    const Triangle& own = points_.facePoints[arc.face];
+    const bool isOwn = own[0] == p || own[1] == p || own[2] == p;
+    const Vec3d a = edges_[static_cast<std::size_t>(arc.from)].direction;
+    const Vec3d b = edges_[static_cast<std::size_t>(arc.to)].direction;
+    const Vec3d n = normalized(cross(a, b));
+    const double sector = isOwn ? angleBetween(a, b) : -1;
+    if (sector <= widest || n == Vec3d{}) continue;
+    widest = sector;
+    start = normalized(normalized(a + b) + n * (dot(n, normal) < 0 ? -kStartHeight : kStartHeight));
+  }
+  return widest > 0;
+}
+
+void FanTest::orient(const Vec3d& start) {
+  for (Edge& e : edges_) e.plane = Vec3f(normalized(cross(start, e.direction)));
+  for (Arc& arc : arcs_) {
+    const auto direction = [&](int e) { return edges_[static_cast<std::size_t>(e)].direction; };
+    Vec3d plane = normalized(cross(direction(arc.from), direction(arc.to)));
+    arc.front = dot(plane, start) > 0;  // faces are wound so that from, to turn about their front normal
+    if (!arc.front) {
+      std::swap(arc.from, arc.to);
+      plane = -plane;
+    }
+    arc.plane = Vec3f(plane);
+  }
+}
+
+float FanTest::highestPoint(const Vec3d& start, const Vec3d& normal) const {
+  double highest = 0;
+  // The top of a minor arc is one of its ends, or the top of its great circle where that lies between them.
+  const auto raise = [&](const Vec3d& a, const Vec3d& b) {
+    highest = std::max({highest, dot(a, normal), dot(b, normal)});
+    const Vec3d c = cross(a, b);
+    const double cc = dot(c, c);
+    if (cc == 0) return;
+    const Vec3d top = normal - c * (dot(c, normal) / cc);
+    if (dot(cross(a, top), c) > 0 && dot(cross(top, b), c) > 0) highest = std::max(highest, length(top));
+  };
+  for (const Arc& arc : arcs_) {
+    raise(edges_[static_cast<std::size_t>(arc.from)].direction, edges_[static_cast<std::size_t>(arc.to)].direction);
+  }
+  if (highest <= kFlat) return 0;
+  // Where the fan is open, crossings also change across the arc from its border to the point opposite the start.
+  for (const Edge& e : edges_) {
+    if (e.uses % 2 != 0) raise(e.direction, -start);
+  }
+  return static_cast<float>(highest) + kFlat;
+}
+
+void FanTest::setPoint(std::uint32_t p) {
+  addArcs(p);
+  height_ = 0;
+  zenithBlocked_ = false;
+  const Vec3d normal(points_.pointNormal[p]);
+  Vec3d start;
+  if (!chooseStart(p, normal, start)) return;
+  height_ = highestPoint(start, normal);
+  if (height_ == 0) return;
+  orient(start);
+  std::array<float, 16> x, y, z;
+  x.fill(points_.pointNormal[p].x);
+  y.fill(points_.pointNormal[p].y);
+  z.fill(points_.pointNormal[p].z);
+  std::array<std::uint32_t, 16> ignored;
+  zenithBlocked_ = (blocked(x.data(), y.data(), z.data(), ignored.data()) & 1) != 0;
+}
+
+std::uint32_t FanTest::blocked(const float* x, const float* y, const float* z, std::uint32_t* faces) const {
+  std::array<std::int32_t, 16> odd{};
+  for (const Arc& arc : arcs_) {
+    const Vec3f a = edges_[static_cast<std::size_t>(arc.from)].plane,
+                b = edges_[static_cast<std::size_t>(arc.to)].plane;
+    const Vec3f c = arc.plane;
+    std::array<std::int32_t, 16> crossed;
+    for (std::size_t i = 0; i < 16; ++i) {
+      // A shared edge is judged by the same numbers for both of its faces: no direction slips between them.
+      const bool pastFrom = a.x * x[i] + a.y * y[i] + a.z * z[i] >= 0;
+      const bool pastTo = b.x * x[i] + b.y * y[i] + b.z * z[i] >= 0;
+      const bool behind = c.x * x[i] + c.y * y[i] + c.z * z[i] < 0;
+      crossed[i] = static_cast<std::int32_t>(pastFrom & !pastTo & behind);
+    }
+    for (std::size_t i = 0; i < 16; ++i) {
+      odd[i] ^= crossed[i];
+      faces[i] = crossed[i] != 0 ? arc.face : faces[i];
+    }
+  }
+  std::uint32_t mask = 0;
+  for (unsigned i = 0; i < 16; ++i) mask |= static_cast<std::uint32_t>(odd[i]) << i;
+  return mask;
+}
+
+bool FanTest::facesFront(std::uint32_t face) const {
+  const auto arc = std::find_if(arcs_.begin(), arcs_.end(), [&](const Arc& a) { return a.face == face; });
+  return arc != arcs_.end() && arc->front;
+}
+
+}  // namespace shbake

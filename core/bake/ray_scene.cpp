@@ -1,0 +1,257 @@
+#include "bake/ray_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <string>
+
+#include "base/error.h"
+
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
+
+namespace shbake {
+namespace {
+
+constexpr float kNearUlps = 8;
+
+/// Rejects hits on faces that touch the ray's own position, whose id every ray carries.
+void leaveOutOwnFaces(const RTCFilterFunctionNArguments* args) {
+  const auto* faces = static_cast<const Triangle*>(args->geometryUserPtr);
+  const unsigned n = args->N;
+  for (unsigned i = 0; i < n; ++i) {
+    if (args->valid[i] != -1) continue;
+    const Triangle& t = faces[RTCHitN_primID(args->hit, n, i)];
+    const unsigned position = RTCRayN_id(args->ray, n, i);
+    if (t[0] == position || t[1] == position || t[2] == position) args->valid[i] = 0;
+  }
+}
+
+std::uint16_t quantise(float weight) {
+  return static_cast<std::uint16_t>(std::clamp(weight, 0.0f, 1.0f) * 65535.0f + 0.5f);
+}
+
+[[noreturn]] void fail(RTCError code, const char* text) {
+  if (code == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (code == RTC_ERROR_CANCELLED) throw cancelledError();
+  throw Error({.cause = std::string("Embree cannot build the scene: ") + text});
+}
+
+}  // namespace
+
+struct RayScene::State {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  const LightingPoints* points = nullptr;
+  std::vector<Vec3f> positions;  // with the padding that Embree reads past the end
+  float near = 0, far = 0;
+  bool packets = false;  // 16-wide packets are native; the stream is faster elsewhere
+  RTCError error = RTC_ERROR_NONE;
+  std::string errorText;
+
+  ~State() {
+    if (scene != nullptr) rtcReleaseScene(scene);
+    if (device != nullptr) rtcReleaseDevice(device);
+  }
+};
+
+class RayScene::Buffers {
+ public:
+  alignas(64) std::array<RTCRayHit, kMaxGroups * 16> stream;
+  alignas(64) RTCRayHit16 packet;
+  std::array<std::uint16_t, kMaxGroups * 16> slot;  // the ray behind each entry of the stream
+};
+
+void RayScene::BuffersDeleter::operator()(Buffers* buffers) const {
+  delete buffers;
+}
+
+RayScene::BuffersPtr RayScene::makeBuffers() const {
+  return BuffersPtr(new Buffers);
+}
+
+RayScene::RayScene(const LightingPoints& points, float maxDistance, int threads, Progress& progress)
+    : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.points = &points;
+  float scale = 0;
+  for (const Vec3f& p : points.positions) scale = std::max({scale, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  s.near = kNearUlps * FLT_EPSILON * scale;
+  s.far = maxDistance;
+  s.positions.reserve(points.positions.size() + 1);
+  s.positions = points.positions;
+  s.positions.emplace_back();
+
+  const FlushDenormals flush;
+  s.device = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
+  if (s.device == nullptr) fail(rtcGetDeviceError(nullptr), "no device");
+  rtcSetDeviceErrorFunction(
+      s.device,
+      [](void* user, RTCError code, const char* text) {
+        auto* state = static_cast<State*>(user);
+        state->error = code;
+        state->errorText = text == nullptr ? "" : text;
+      },
+      &s);
+  s.packets = rtcGetDeviceProperty(s.device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
+
+  RTCGeometry geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, s.positions.data(), 0,
+                             sizeof(Vec3f), points.positions.size());
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, points.faces.data(), 0,
+                             sizeof(Triangle), points.faces.size());
+  rtcSetGeometryUserData(geometry, const_cast<Triangle*>(points.faces.data()));
+  rtcSetGeometryOccludedFilterFunction(geometry, leaveOutOwnFaces);
+  rtcSetGeometryIntersectFilterFunction(geometry, leaveOutOwnFaces);
+  rtcCommitGeometry(geometry);
+
+  s.scene = rtcNewScene(s.device);
+  rtcSetSceneBuildQuality(s.scene, RTC_BUILD_QUALITY_MEDIUM);
+  rtcAttachGeometry(s.scene, geometry);
+  rtcReleaseGeometry(geometry);
+  progress.begin("building", 0, "faces");
+  rtcSetSceneProgressMonitorFunction(
+      s.scene, [](void* user, double) { return static_cast<Progress*>(user)->tryAdvance(0); }, &progress);
+  rtcCommitScene(s.scene);
+  if (s.error != RTC_ERROR_NONE) fail(s.error, s.errorText.c_str());
+  progress.end();
+}
+
+RayScene::~RayScene() = default;
+
+namespace {
+
+/// Fills entry i of a packet or stream with what all rays of a point share.
+template <class Packet>
+void setCommon(Packet& r, unsigned i, const Vec3f& origin, float near, std::uint32_t position) {
+  r.org_x[i] = origin.x;
+  r.org_y[i] = origin.y;
+  r.org_z[i] = origin.z;
+  r.tnear[i] = near;
+  r.time[i] = 0;
+  r.mask[i] = ~0u;
+  r.id[i] = position;
+  r.flags[i] = 0;
+}
+
+void setDirections(RTCRay16& r, const RayScene::Rays& rays, int group, float far) {
+  for (unsigned i = 0; i < 16; ++i) {
+    const std::size_t k = static_cast<std::size_t>(group) * 16 + i;
+    r.dir_x[i] = rays.x[k];
+    r.dir_y[i] = rays.y[k];
+    r.dir_z[i] = rays.z[k];
+    r.tfar[i] = far;
+  }
+}
+
+std::array<int, 16> laneFlags(std::uint16_t active) {
+  std::array<int, 16> valid;
+  for (unsigned i = 0; i < 16; ++i) valid[i] = (active >> i & 1) != 0 ? -1 : 0;
+  return valid;
+}
+
+/// Appends the active rays to the stream; returns how many there are.
+template <class Slots>
+unsigned fillStream(RTCRayHit* stream, Slots& slots, const RayScene::Rays& rays, const Vec3f& origin, float near,
+                    float far) {
+  unsigned n = 0;
+  for (int g = 0; g < rays.groups; ++g) {
+    for (unsigned bits = rays.active[g]; bits != 0; bits &= bits - 1) {
+      const auto k = static_cast<std::size_t>(g) * 16 + static_cast<unsigned>(__builtin_ctz(bits));
+      stream[n].ray = {origin.x,  origin.y, origin.z, near, rays.x[k],     rays.y[k],
+                       rays.z[k], 0,        far,      ~0u,  rays.position, 0};
+      slots[n++] = static_cast<std::uint16_t>(k);
+    }
+  }
+  return n;
+}
+
+}  // namespace
+
+void RayScene::occluded(const Rays& rays, Buffers& buffers, std::uint16_t* hit) const {
+  const State& s = *state_;
+  const Vec3f origin = s.points->positions[rays.position];
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  std::fill_n(hit, rays.groups, std::uint16_t(0));
+  if (!s.packets) {
+    const unsigned n = fillStream(buffers.stream.data(), buffers.slot, rays, origin, s.near, s.far);
+    rtcOccluded1M(s.scene, &context, &buffers.stream[0].ray, n, sizeof(RTCRayHit));
+    for (unsigned i = 0; i < n; ++i) {
+      const bool blocked = buffers.stream[i].ray.tfar < 0;
+      hit[buffers.slot[i] / 16] |= static_cast<std::uint16_t>(blocked << (buffers.slot[i] % 16));
+    }
+    return;
+  }
+  RTCRay16& r = buffers.packet.ray;
+  for (unsigned i = 0; i < 16; ++i) setCommon(r, i, origin, s.near, rays.position);
+  for (int g = 0; g < rays.groups; ++g) {
+    if (rays.active[g] == 0) continue;
+    setDirections(r, rays, g, s.far);
+    alignas(64) const auto valid = laneFlags(rays.active[g]);
+    rtcOccluded16(valid.data(), s.scene, &context, &r);
+    for (unsigned i = 0; i < 16; ++i) hit[g] |= static_cast<std::uint16_t>((r.tfar[i] < 0) << i);
+  }
+}
+
+void RayScene::closest(const Rays& rays, Buffers& buffers, std::uint16_t* hit, std::uint16_t* front, Hit* hits) const {
+  const State& s = *state_;
+  const Vec3f origin = s.points->positions[rays.position];
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  std::fill_n(hit, rays.groups, std::uint16_t(0));
+  std::fill_n(front, rays.groups, std::uint16_t(0));
+  const auto take = [&](std::size_t k, unsigned face, float u, float v, float towards) {
+    const auto bit = static_cast<std::uint16_t>(1u << (k % 16));
+    hit[k / 16] |= bit;
+    if (towards < 0) front[k / 16] |= bit;
+    hits[k] = {face, quantise(u), quantise(v)};
+  };
+  if (!s.packets) {
+    const unsigned n = fillStream(buffers.stream.data(), buffers.slot, rays, origin, s.near, s.far);
+    for (unsigned i = 0; i < n; ++i) buffers.stream[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1M(s.scene, &context, buffers.stream.data(), n, sizeof(RTCRayHit));
+    for (unsigned i = 0; i < n; ++i) {
+      const RTCHit& h = buffers.stream[i].hit;
+      const RTCRay& r = buffers.stream[i].ray;
+      if (h.geomID == RTC_INVALID_GEOMETRY_ID) continue;
+      take(buffers.slot[i], h.primID, h.u, h.v, h.Ng_x * r.dir_x + h.Ng_y * r.dir_y + h.Ng_z * r.dir_z);
+    }
+    return;
+  }
+  RTCRay16& r = buffers.packet.ray;
+  RTCHit16& h = buffers.packet.hit;
+  for (unsigned i = 0; i < 16; ++i) setCommon(r, i, origin, s.near, rays.position);
+  for (int g = 0; g < rays.groups; ++g) {
+    if (rays.active[g] == 0) continue;
+    setDirections(r, rays, g, s.far);
+    std::fill_n(h.geomID, 16, RTC_INVALID_GEOMETRY_ID);
+    alignas(64) const auto valid = laneFlags(rays.active[g]);
+    rtcIntersect16(valid.data(), s.scene, &context, &buffers.packet);
+    for (unsigned i = 0; i < 16; ++i) {
+      if (h.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+      take(static_cast<std::size_t>(g) * 16 + i, h.primID[i], h.u[i], h.v[i],
+           h.Ng_x[i] * r.dir_x[i] + h.Ng_y[i] * r.dir_y[i] + h.Ng_z[i] * r.dir_z[i]);
+    }
+  }
+}
+
+#ifdef __SSE__
+FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) {
+  _mm_setcsr(saved_ | 0x8040);
+}
+FlushDenormals::~FlushDenormals() {
+  _mm_setcsr(saved_);
+}
+#else
+FlushDenormals::FlushDenormals() : saved_(0) {}
+FlushDenormals::~FlushDenormals() = default;
+#endif
+
+}  // namespace shbake

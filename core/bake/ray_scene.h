@@ -1,0 +1,73 @@
+// The faces of a scene in Embree, answering for rays that start at a lighting point's position.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/progress.h"
+#include "mesh/lighting_points.h"
+
+namespace shbake {
+
+/// Where a ray ended, in 8 bytes.
+struct Hit {
+  std::uint32_t face;
+  std::uint16_t u, v;  ///< barycentric weights of corners 1 and 2 in units of 1/65535; corner 0 has the rest
+};
+
+/// Faces touching the ray's own position never count as hit: they are found by comparing welded position ids in a
+/// filter, not by an offset (Green 2003's exclusion rule; see fan_test.h for what it misses). On top of it rays begin 8
+/// ulp of the coordinate scale from their origin, since faces that touch the position without sharing it (T-junctions,
+/// a box standing on the ground) are hit at distances of rounding error.
+class RayScene {
+ public:
+  /// Rays of one point, at most this many in a call.
+  static constexpr int kMaxGroups = 64;
+
+  /// Builds the BVH on `threads` threads. `points` must outlive the scene: Embree traces its arrays in place.
+  /// `maxDistance` in work units. Throws a work error where Embree fails (out of memory), cancelled by `progress`.
+  RayScene(const LightingPoints& points, float maxDistance, int threads, Progress& progress);
+  ~RayScene();
+
+  /// Rays from one position: unit directions in world axes, in groups of 16.
+  struct Rays {
+    std::uint32_t position;       // position id: origin and what to leave out
+    int groups;                   // 1..kMaxGroups
+    const float *x, *y, *z;       // groups * 16 components each
+    const std::uint16_t* active;  // a mask for each group: only these rays are traced
+  };
+
+  /// Space for one thread's rays. Make one for each worker.
+  class Buffers;
+  struct BuffersDeleter {
+    void operator()(Buffers* buffers) const;
+  };
+  using BuffersPtr = std::unique_ptr<Buffers, BuffersDeleter>;
+  BuffersPtr makeBuffers() const;
+
+  /// Sets in hit[g] the bits of the active rays that are blocked.
+  void occluded(const Rays& rays, Buffers& buffers, std::uint16_t* hit) const;
+
+  /// Finds the nearest hits: sets bits in hit[g], the bits of those that met a face's front in front[g], and hits[g *
+  /// 16 + i].
+  void closest(const Rays& rays, Buffers& buffers, std::uint16_t* hit, std::uint16_t* front, Hit* hits) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// While it lives, this thread flushes denormal numbers to zero, as Embree asks for.
+class FlushDenormals {
+ public:
+  FlushDenormals();
+  ~FlushDenormals();
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+ private:
+  unsigned saved_;
+};
+
+}  // namespace shbake

@@ -1,0 +1,169 @@
+#include "pipeline/bake_mesh.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "bake/baker.h"
+#include "base/error.h"
+#include "pipeline/scene.h"
+
+namespace shbake {
+namespace {
+
+/// The output vertices that belong to the mesh itself, not to a blocker: indices into LightingPoints::outputPoint.
+std::vector<std::uint32_t> ownOutputs(const LightingPoints& points, std::size_t ownVertices) {
+  std::vector<std::uint32_t> own;
+  for (std::size_t i = 0; i < points.outputPoint.size(); ++i) {
+    if (points.outputSource[i] < ownVertices) own.push_back(static_cast<std::uint32_t>(i));
+  }
+  return own;
+}
+
+std::vector<std::uint8_t> wantedPoints(const LightingPoints& points, const std::vector<std::uint32_t>& outputs) {
+  std::vector<std::uint8_t> wanted(points.size(), 0);
+  for (const std::uint32_t i : outputs) {
+    if (points.outputPoint[i] != LightingPoints::kNone) wanted[points.outputPoint[i]] = 1;
+  }
+  return wanted;
+}
+
+/// Repeats item `source` of a property for each appended vertex.
+void splitProperty(Property& property, const std::vector<std::uint32_t>& appendedSources) {
+  const std::size_t size = scalarSize(property.type);
+  for (const std::uint32_t source : appendedSources) {
+    const std::size_t first = property.isList ? property.listStarts[source] : source;
+    const std::size_t last = property.isList ? property.listStarts[source + 1] : first + 1;
+    const auto* data = property.values.data();
+    const std::vector<std::byte> item(data + first * size, data + last * size);
+    property.values.insert(property.values.end(), item.begin(), item.end());
+    if (property.isList) property.listStarts.push_back(property.values.size() / size);
+  }
+}
+
+/// Appends the vertices that were split off, with all that their source vertex carries, and points the faces at them.
+void splitMesh(Mesh& mesh, const LightingPoints& points, const std::vector<std::uint32_t>& outputs) {
+  const std::size_t vertices = mesh.positions.size();
+  std::vector<std::uint32_t> sources;
+  std::vector<std::uint32_t> renumbered(points.outputPoint.size(), LightingPoints::kNone);
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    renumbered[outputs[i]] = static_cast<std::uint32_t>(i);
+    if (i >= vertices) sources.push_back(points.outputSource[outputs[i]]);
+  }
+  for (const std::uint32_t v : sources) {
+    mesh.positions.push_back(mesh.positions[v]);
+    if (!mesh.vertexColors.empty()) mesh.vertexColors.push_back(mesh.vertexColors[v]);
+  }
+  for (Property& property : mesh.vertexProperties) splitProperty(property, sources);
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) mesh.triangles[f][k] = renumbered[points.outputFaces[f][k]];
+  }
+  mesh.cornerNormals.clear();
+  mesh.vertexNormals.assign(outputs.size(), Vec3f());
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const std::uint32_t p = points.outputPoint[outputs[i]];
+    if (p != LightingPoints::kNone) mesh.vertexNormals[i] = points.pointNormal[p];
+  }
+}
+
+/// One transfer vector for each output vertex. An isolated vertex gets zeros.
+TransferSet expand(const TransferSet& baked, const LightingPoints& points, const std::vector<std::uint32_t>& outputs) {
+  TransferSet out;
+  out.order = baked.order;
+  out.channels = baked.channels;
+  const std::size_t stride = baked.stride();
+  out.coefficients.resize(outputs.size() * stride);
+  out.error.resize(outputs.size());
+  out.visibility.resize(outputs.size());
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const std::uint32_t p = points.outputPoint[outputs[i]];
+    if (p == LightingPoints::kNone) continue;
+    std::copy_n(&baked.coefficients[p * stride], stride, &out.coefficients[i * stride]);
+    out.error[i] = baked.error[p];
+    out.visibility[i] = baked.visibility[p];
+  }
+  return out;
+}
+
+TransferFacts describe(const PointBake& baked, const BakeOptions& options) {
+  TransferFacts facts;
+  facts.version = SHBAKE_VERSION;
+  facts.kind = options.kind;
+  facts.bounces = baked.bounces;
+  facts.bouncesConverged =
+      options.kind == TransferKind::interreflected && options.bounces == BakeOptions::kBouncesAuto && baked.converged;
+  facts.rays = baked.rays;
+  facts.seed = options.seed;
+  facts.sampler = baked.rays > 0 ? "cosine-fibonacci" : "closed-form";
+  facts.rmsError = baked.rmsError;
+  facts.maxError = baked.maxError;
+  facts.tolerance = options.rays == 0 ? options.tolerance : 0;
+  return facts;
+}
+
+void warn(BakedMesh& result, const PointBake& baked, const LightingPoints& points, const BakeOptions& options) {
+  if (!baked.converged) {
+    result.warnings.push_back("the reflections did not converge in " + std::to_string(baked.bounces) +
+                              " steps: the mesh encloses light with an albedo too close to 1; lower the albedo");
+  }
+  if (baked.retracedPoints > 0) {
+    result.warnings.push_back("the memory budget was short: " + std::to_string(baked.retracedPoints) +
+                              " points were traced again for each reflection; allow more memory to go faster");
+  }
+  if (options.rays == 0 && baked.rmsError > options.tolerance) {
+    result.warnings.push_back("the stated error is above the tolerance; ask for more rays");
+  }
+  const auto isolated = std::count(points.outputPoint.begin(), points.outputPoint.end(), LightingPoints::kNone);
+  if (isolated > 0) {
+    result.warnings.push_back(std::to_string(isolated) + " vertices belong to no face: their transfer is zero");
+  }
+}
+
+}  // namespace
+
+BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshOptions& options,
+                   const Parallel& parallel, Progress& progress) {
+  validate(options.bake);
+  BakedMesh result;
+
+  // Albedo: of the mesh and of what stands around it.
+  ResolvedAlbedo albedo = resolveAlbedo(mesh, options.albedo);
+  result.albedoNote = albedo.note;
+  result.warnings = mesh.warnings;
+  result.warnings.insert(result.warnings.end(), albedo.warnings.begin(), albedo.warnings.end());
+
+  // Lighting points of everything that takes part in the transport of light.
+  const std::size_t vertices = mesh.positions.size();
+  LightingPoints points;
+  if (blockers.empty()) {
+    points = makeLightingPoints(mesh, options.points, albedo.albedo);
+  } else {
+    AlbedoOptions blockerOptions = options.albedo;
+    blockerOptions.source = AlbedoSource::automatic;
+    std::vector<Albedo> albedos;
+    for (const Mesh& b : blockers) albedos.push_back(resolveAlbedo(b, blockerOptions).albedo);
+    const Scene scene = joinScene(mesh, albedo.albedo, blockers, albedos);
+    points = makeLightingPoints(scene.mesh, options.points, scene.albedo);
+  }
+
+  // Transfer of every lighting point.
+  const std::vector<std::uint32_t> outputs = ownOutputs(points, vertices);
+  const std::vector<std::uint8_t> wanted = wantedPoints(points, outputs);
+  const PointBake baked = bakePoints(points, wanted, options.bake, parallel, progress);
+
+  // Back to the mesh: its vertices in their order, then those that were split off.
+  result.transfer = expand(baked.transfer, points, outputs);
+  result.facts = describe(baked, options.bake);
+  result.facts.lightingPoints = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 1));
+  result.facts.sourceVertices = vertices;
+  result.facts.source = std::filesystem::path(mesh.source).filename().string();
+  warn(result, baked, points, options.bake);
+  splitMesh(mesh, points, outputs);
+  if (outputs.size() > vertices) {
+    for (const std::uint32_t i : outputs) result.sourceVertex.push_back(points.outputSource[i]);
+  }
+  result.mesh = std::move(mesh);
+  return result;
+}
+
+}  // namespace shbake
