@@ -24,9 +24,9 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct Mesh {
   std::string source;  ///< the file it was read from, for messages and headers
 
-  std::vector<Vec3d> positions;      ///< V points in the file's own axes and units, all finite
-  std::vector<Triangle> triangles;   ///< F triples of indices < V
-  bool doublePositions = false;      ///< the file's coordinates need double precision; written back as such
+  std::vector<Vec3d> positions;     ///< V points in the file's own axes and units, all finite
+  std::vector<Triangle> triangles;  ///< F triples of indices < V
+  bool doublePositions = false;     ///< the file's coordinates need double precision; written back as such
 
   std::vector<Vec3f> vertexNormals;  ///< V normals of any length, or empty
   std::vector<Vec3f> cornerNormals;  ///< 3F normals of any length, or empty; they win over vertexNormals

@@ -1,0 +1,20 @@
+#include "mesh/position_precision.h"
+
+#include <algorithm>
+
+namespace shbake {
+
+bool positionsNeedDouble(std::span<const Vec3d> positions) {
+  constexpr double kLoss = 1e-7;
+  if (positions.empty()) return false;
+  Vec3d low = positions[0], high = positions[0];
+  double moved = 0;
+  for (const Vec3d& p : positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    moved = std::max(moved, length(p - Vec3d(Vec3f(p))));
+  }
+  return moved > kLoss * length(high - low);
+}
+
+}  // namespace shbake
