@@ -8,14 +8,15 @@
 namespace shbake {
 namespace {
 
-// The power of two that brings `halfExtent` into (0.5, 1], as far as doubles reach.
+// The power of two that brings `halfExtent` into (0.5, 1]; the largest one for the few subnormal extents beyond its
+// reach.
 double scaleFor(double halfExtent) {
   if (halfExtent == 0) return 1;
   int exponent = 0;
   const double mantissa =
       std::frexp(halfExtent, &exponent);  // halfExtent = mantissa * 2^exponent, mantissa in [0.5, 1)
   if (mantissa == 0.5) --exponent;
-  return std::ldexp(1.0, std::clamp(-exponent, -1022, 1023));
+  return std::ldexp(1.0, std::min(-exponent, 1023));
 }
 
 }  // namespace
