@@ -2,6 +2,7 @@
 find_package(OpenMesh REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(TBB REQUIRED)
+find_package(Eigen3 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 
