@@ -130,12 +130,12 @@ class ElementReader {
          "get the whole file: it was cut short, or its header is wrong");
   }
 
-  /// Room for as many rows as the header declares and the file can hold.
+  /// Room for as many rows as the header declares and the file can hold, the last perhaps cut short.
   void allocate() {
     const std::uint64_t bytes = input_.remaining() + (ascii_ ? 1 : 0);  // the last line may lack its end
     const std::uint64_t fitting = bytes / leastRowBytes_;
     if (!ascii_ && element_.count > fitting && !hasLists_) failTruncated(fitting);
-    const auto rows = static_cast<std::size_t>(std::min(element_.count, fitting));
+    const auto rows = static_cast<std::size_t>(std::min(element_.count, fitting + 1));
     for (Column& c : columns_) {
       if (c.toSink) continue;
       if (c.property.isList) {
