@@ -21,7 +21,7 @@ unlockBuild() { exec 9>&-; }
 
 onTerminal() { [[ -t 0 && -t 2 ]]; }
 
-neededPackages() { sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$root/packages.txt"; }
+neededPackages() { sed -E -e 's/[[:space:]]*(#.*)?$//' -e '/^$/d' "$root/packages.txt"; }
 
 missingPackages() {
   local installed
