@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "sh/basis.h"
@@ -40,6 +42,25 @@ double unshadowedNorm(int order) {
     sum += a * a * (2 * l + 1) / (4 * std::numbers::pi);
   }
   return std::sqrt(sum);
+}
+
+void irradiance(int order, std::span<const double> light, std::span<double> out) {
+  requireCoefficients(order, light.size(), "the input of irradiance()");
+  requireCoefficients(order, out.size(), "the output of irradiance()");
+  for (int l = 0; l < order; ++l) {
+    const double factor = cosineLobe(l);
+    for (int i = index(l, -l); i <= index(l, l); ++i) out[i] = factor * light[i];
+  }
+}
+
+double irradianceAt(int order, std::span<const double> light, const Vec3d& normal) {
+  requireCoefficients(order, light.size(), "the input of irradianceAt()");
+  std::vector<double> transfer(coefficientCount(order));
+  // The transfer of a surface with albedo pi: radiance is E then.
+  unshadowedTransfer(order, normal, std::numbers::pi, transfer);
+  double sum = 0;
+  for (std::size_t i = 0; i < transfer.size(); ++i) sum += transfer[i] * light[i];
+  return sum;
 }
 
 }  // namespace shbake::sh

@@ -19,4 +19,10 @@ void unshadowedTransfer(int order, const Vec3d& normal, double albedo, std::span
 /// The L2 norm of unshadowedTransfer() with albedo 1; it does not depend on the normal.
 double unshadowedNorm(int order);
 
+/// Irradiance from radiance, as functions of direction: out_lm = A_l light_lm, order^2 coefficients, in place or not.
+void irradiance(int order, std::span<const double> light, std::span<double> out);
+
+/// The irradiance E of a surface facing `normal` (unit length) under light with order^2 coefficients.
+double irradianceAt(int order, std::span<const double> light, const Vec3d& normal);
+
 }  // namespace shbake::sh
