@@ -21,8 +21,8 @@ enum class NormalSource {
 
 struct LightingPointOptions {
   NormalSource normals = NormalSource::automatic;
-  /// Faces that meet at more than this angle share no normal, in degrees 0..180.
-  double creaseDegrees = 60;
+  /// Faces whose normals differ by more than this share none, in degrees 0..180 (docs/lighting-points.md: why 50).
+  double creaseDegrees = 50;
 };
 
 /// Albedo of each corner in linear RGB, 0..1. One entry: the whole mesh; F: a face each; V: a vertex each.
