@@ -6,6 +6,7 @@
 
 #include "bake/direct_transfer.h"
 #include "bake/fixed_point.h"
+#include "bake/pilot.h"
 #include "bake/ray_scene.h"
 #include "bake/reflections.h"
 #include "bake/stated_error.h"
@@ -81,16 +82,21 @@ class Baker {
     const float maxDistance = static_cast<float>(options_.maxDistance * points_.frame.scale);
     const RayScene scene(points_, maxDistance, parallel_.threads(), progress_);
     const bool reflect = options_.kind == TransferKind::interreflected && options_.bounces != 0 && !isBlack();
-    const DirectionSet directions(options_.rays, options_.order);
+    const int rays =
+        options_.rays > 0 ? options_.rays : chooseRays(points_, wanted_, scene, options_, parallel_, progress_);
+    const DirectionSet directions(rays, options_.order);
     result_.rays = directions.size();
+    pairs_.assign(points_.size(), 0);
     if (reflect) {
       const std::size_t memory = options_.memory > 0 ? options_.memory : availableMemory() / 2;
       Reflections reflections(points_, scene, directions, options_.seed, options_.twoSided, memory / 2, parallel_);
       traceWithHits(reflections, directions);
       addReflections(reflections, memory / 2);
+      measureRoughness(reflections);
     } else {
       traceSky(scene, directions);
     }
+    result_.transfer.error = statedErrors(points_, pairs_, roughness_, result_.rays, options_.order);
   }
 
   /// What one worker needs to turn a point's sky masks into its transfer.
@@ -99,11 +105,11 @@ class Baker {
     std::vector<float> transfer;
   };
 
-  void evaluate(Evaluator& e, std::uint32_t p, std::span<const std::uint16_t> sky, double spin, int rays) {
+  void evaluate(Evaluator& e, std::uint32_t p, std::span<const std::uint16_t> sky, double spin) {
     e.direct.evaluate(sky, Vec3d(points_.pointNormal[p]), spin, e.transfer);
     store(p, e.transfer);
     result_.transfer.visibility[p] = static_cast<float>(e.direct.visibility(sky));
-    result_.transfer.error[p] = static_cast<float>(directError(boundaryPairs(sky), rays, options_.order));
+    pairs_[p] = boundaryPairs(sky);
   }
 
   std::vector<Evaluator> makeEvaluators(const DirectionSet& directions) const {
@@ -125,7 +131,7 @@ class Baker {
         const auto p = static_cast<std::uint32_t>(i);
         if (isWanted(p)) {
           tracer.look(p, sky);
-          evaluate(evaluators[static_cast<std::size_t>(worker)], p, sky, tracer.spin(p), directions.size());
+          evaluate(evaluators[static_cast<std::size_t>(worker)], p, sky, tracer.spin(p));
         }
         progress_.advance(directions.size());
       }
@@ -136,11 +142,9 @@ class Baker {
   void traceWithHits(Reflections& reflections, const DirectionSet& directions) {
     auto evaluators = makeEvaluators(directions);
     progress_.begin("tracing", static_cast<double>(points_.size()) * directions.size(), "rays");
-    reflections.trace(
-        [&](std::uint32_t p, double spin, std::span<const std::uint16_t> sky, std::span<const Hit>, int worker) {
-          evaluate(evaluators[static_cast<std::size_t>(worker)], p, sky, spin, directions.size());
-        },
-        progress_);
+    reflections.trace([&](std::uint32_t p, double spin, std::span<const std::uint16_t> sky, std::span<const Hit>,
+                          int worker) { evaluate(evaluators[static_cast<std::size_t>(worker)], p, sky, spin); },
+                      progress_);
     progress_.end();
     result_.storedBytes = reflections.storedBytes();
     result_.retracedPoints = reflections.forgottenPoints();
@@ -158,6 +162,19 @@ class Baker {
       }
     }
     progress_.end();
+  }
+
+  /// How uneven the reflected light is that each point sees, judged by the first two bands of the middle channel: they
+  /// hold 88 % of an unshadowed transfer.
+  void measureRoughness(Reflections& reflections) {
+    const std::size_t real = std::min(kColumns, count()), stride = result_.transfer.stride();
+    const std::size_t offset = result_.transfer.channels == 3 ? count() : 0;
+    std::vector<float> firstBands(points_.size() * kColumns);
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      std::copy_n(&result_.transfer.coefficients[p * stride + offset], real, &firstBands[p * kColumns]);
+    }
+    roughness_.resize(points_.size());
+    reflections.roughness(firstBands.data(), roughness_.data(), kColumns, progress_);
   }
 
   float albedo(std::size_t p, int channel) const {
@@ -224,6 +241,8 @@ class Baker {
   const BakeOptions& options_;
   const Parallel& parallel_;
   Progress& progress_;
+  std::vector<std::uint32_t> pairs_;  // boundary pairs of each point
+  std::vector<float> roughness_;      // of the reflected light that each point sees; empty without reflections
   PointBake result_;
 };
 

@@ -11,6 +11,8 @@ namespace {
 constexpr std::size_t kChunk = 1024;
 /// Columns summed together: as many floats as registers hold.
 constexpr std::size_t kStrip = 16;
+/// Columns come in whole vectors of this many floats.
+constexpr std::size_t kColumns = 4;
 /// The hits ahead whose rows are fetched early.
 constexpr std::size_t kAhead = 8;
 
@@ -103,7 +105,9 @@ void Reflections::gatherPoint(std::span<const Hit> hits, const float* in, float*
   }
 }
 
-void Reflections::gather(const float* in, float* out, std::size_t columns, Progress& progress) {
+/// Calls body(p, hits) for every point, in parallel; points without stored hits are traced again.
+template <class Body>
+void Reflections::forHits(Progress& progress, const Body& body) {
   parallel_.forBlocks(points_.size(), kBlock, [&](std::size_t begin, std::size_t end, int worker) {
     Block again;
     const Block* block = &blocks_[begin / kBlock];
@@ -114,10 +118,33 @@ void Reflections::gather(const float* in, float* out, std::size_t columns, Progr
     std::uint32_t first = 0;
     for (std::size_t p = begin; p < end; ++p) {
       const std::uint32_t last = block->ends[p - begin];
-      gatherPoint(std::span(block->hits).subspan(first, last - first), in, out + p * columns, columns);
+      body(p, std::span(block->hits).subspan(first, last - first));
       first = last;
     }
     progress.advance(0);
+  });
+}
+
+void Reflections::gather(const float* in, float* out, std::size_t columns, Progress& progress) {
+  forHits(progress,
+          [&](std::size_t p, std::span<const Hit> hits) { gatherPoint(hits, in, out + p * columns, columns); });
+}
+
+void Reflections::roughness(const float* in, float* out, std::size_t columns, Progress& progress) {
+  forHits(progress, [&](std::size_t p, std::span<const Hit> hits) {
+    std::vector<float> last(columns), next(columns);
+    double sum = 0;
+    for (std::size_t h = 0; h < hits.size(); ++h) {
+      for (std::size_t c = 0; c < columns; c += kColumns) {
+        addHits<kColumns>(hits.subspan(h, 1), points_.facePoints, in + c, columns, &next[c]);
+      }
+      for (std::size_t c = 0; h > 0 && c < columns; ++c) {
+        const double difference = static_cast<double>(next[c]) - static_cast<double>(last[c]);
+        sum += difference * difference;
+      }
+      std::swap(last, next);
+    }
+    out[p] = static_cast<float>(sum);
   });
 }
 

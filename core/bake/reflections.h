@@ -36,6 +36,11 @@ class Reflections {
   /// p before p's own albedo. Arrays hold `columns` values a point (a multiple of 4).
   void gather(const float* in, float* out, std::size_t columns, Progress& progress);
 
+  /// out[p] = sum over successive hits of p of the squared difference of `in` between them: how uneven the reflected
+  /// light is that p sees. Successive hits are mostly neighbours on the sphere. Arrays as for gather(), `out` one value
+  /// a point.
+  void roughness(const float* in, float* out, std::size_t columns, Progress& progress);
+
   /// Bytes of hits that are stored, and the points that are traced again for each product.
   std::size_t storedBytes() const { return storedBytes_; }
   std::size_t forgottenPoints() const { return forgottenPoints_; }
@@ -47,6 +52,8 @@ class Reflections {
   };
 
   void traceBlock(std::size_t begin, std::size_t end, int worker, Block& block, const Visit* visit);
+  template <class Body>
+  void forHits(Progress& progress, const Body& body);
   void gatherPoint(std::span<const Hit> hits, const float* in, float* out, std::size_t columns) const;
 
   const LightingPoints& points_;

@@ -1,0 +1,199 @@
+// bench_speed: how close a bake comes to the tracing limit, how it scales, and how it compares with Green's loop at
+// equal error. Everything that a ratio compares is measured in this one run, in CPU time, as the median of several
+// repetitions.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+
+#include "bake/baker.h"
+#include "bake/stated_error.h"
+#include "green.h"
+#include "measure.h"
+#include "raw_tracing.h"
+#include "reference.h"
+#include "scenes.h"
+#include "sh/basis.h"
+#include "sh/irradiance.h"
+
+namespace shbake::bench {
+namespace {
+
+struct Options {
+  std::vector<std::string> meshes;
+  int repetitions = 5;
+  bool skipGreen = false;
+};
+
+/// CPU seconds of a bake's stages, without the BVH.
+struct BakeTime {
+  double tracing = 0, reflecting = 0, wall = 0;
+};
+
+BakeTime timeBake(const LightingPoints& points, const BakeOptions& options, int threads) {
+  StageClock clock;
+  Progress progress(clock.callback());
+  const Parallel parallel(threads);
+  const double wall = wallSeconds();
+  bakePoints(points, {}, options, parallel, progress);
+  clock.finish();
+  return {clock.seconds("tracing"), clock.seconds("reflecting"), wallSeconds() - wall};
+}
+
+LightingPoints pointsOf(const std::string& name, const Rgb& albedo) {
+  const Mesh mesh = namedMesh(name);
+  Albedo a;
+  a.values = {albedo};
+  return makeLightingPoints(mesh, {}, a);
+}
+
+void overRaw(const std::string& label, const LightingPoints& points, int rays, int repetitions) {
+  BakeOptions options;
+  options.kind = TransferKind::shadowed;
+  options.order = 5;
+  options.rays = rays;
+  const DirectionSet directions(rays, options.order);
+  std::vector<double> overFiltered, overBare, rate;
+  for (int i = 0; i < repetitions; ++i) {
+    const double filtered = rawTracing(points, directions, options.seed, true);
+    const double bake = timeBake(points, options, 1).tracing;
+    const double bare = rawTracing(points, directions, options.seed, false);
+    overFiltered.push_back(bake / filtered);
+    overBare.push_back(bake / bare);
+    rate.push_back(static_cast<double>(points.size()) * rays / bake / 1e6);
+  }
+  std::printf("%-24s %7zu %5d %8.2f %10.3f %10.3f\n", label.c_str(), points.size(), rays, median(rate),
+              median(overFiltered), median(overBare));
+  std::fflush(stdout);
+}
+
+void scaling(const std::string& label, const LightingPoints& points, int repetitions) {
+  BakeOptions shadowed;
+  shadowed.kind = TransferKind::shadowed;
+  shadowed.rays = 256;
+  BakeOptions reflected = shadowed;
+  reflected.kind = TransferKind::interreflected;
+  reflected.bounces = 3;
+  std::vector<double> threads, bounces;
+  for (int i = 0; i < repetitions; ++i) {
+    const BakeTime one = timeBake(points, shadowed, 1), two = timeBake(points, shadowed, 2),
+                   three = timeBake(points, reflected, 1);
+    threads.push_back(one.wall / two.wall);
+    bounces.push_back((three.tracing + three.reflecting) / one.tracing);
+  }
+  std::printf("%-24s %14.2f %22.2f\n", label.c_str(), median(threads), median(bounces));
+  std::fflush(stdout);
+}
+
+double relativeError(const std::vector<double>& reference, const std::vector<double>& estimate, std::size_t count) {
+  double sum = 0;
+  for (std::size_t i = 0; i < reference.size(); ++i) sum += std::pow(estimate[i] - reference[i], 2);
+  const int order = static_cast<int>(std::lround(std::sqrt(static_cast<double>(count))));
+  return std::sqrt(sum / static_cast<double>(reference.size() / count)) / sh::unshadowedNorm(order);
+}
+
+/// CPU time against error of our bake at several ray counts; interpolated between them as a power law.
+struct Curve {
+  std::vector<double> error, cpu;
+
+  double cpuAt(double e) const {
+    std::size_t i = 1;
+    while (i + 1 < error.size() && error[i] > e) ++i;
+    const double t = std::log(e / error[i - 1]) / std::log(error[i] / error[i - 1]);
+    return cpu[i - 1] * std::pow(cpu[i] / cpu[i - 1], t);
+  }
+};
+
+Curve ourCurve(const LightingPoints& points, const std::vector<std::uint32_t>& chosen,
+               const std::vector<double>& reference, std::size_t count, int repetitions) {
+  Curve curve;
+  for (const int rays : {16, 32, 64, 128, 256, 512, 1024}) {
+    std::vector<double> errors, times;
+    for (int i = 0; i < repetitions; ++i) {
+      BakeOptions options;
+      options.kind = TransferKind::shadowed;
+      options.order = static_cast<int>(std::lround(std::sqrt(static_cast<double>(count))));
+      options.rays = rays;
+      options.seed = static_cast<std::uint64_t>(i + 1);
+      StageClock clock;
+      Progress progress(clock.callback());
+      const PointBake baked = bakePoints(points, {}, options, Parallel(1), progress);
+      clock.finish();
+      std::vector<double> estimate;
+      for (const std::uint32_t p : chosen) {
+        for (const float v : baked.transfer.at(p, 0)) estimate.push_back(static_cast<double>(v));
+      }
+      errors.push_back(relativeError(reference, estimate, count));
+      times.push_back(clock.seconds("tracing"));
+    }
+    curve.error.push_back(median(errors));
+    curve.cpu.push_back(median(times));
+  }
+  return curve;
+}
+
+void againstGreen(const std::string& label, const LightingPoints& points, int repetitions) {
+  constexpr int kOrder = 4;
+  const auto count = static_cast<std::size_t>(sh::coefficientCount(kOrder));
+  const auto chosen = choosePoints(points, 400);
+  const auto timed = choosePoints(points, 4000);
+  const auto reference = directReference(points, chosen, kOrder, 65536, Parallel(1));
+  const Curve ours = ourCurve(points, chosen, reference, count, std::min(repetitions, 3));
+  for (const int side : {16, 24, 32, 48}) {
+    std::vector<double> errors, ratios;
+    for (int i = 0; i < repetitions; ++i) {
+      const GreenBake judged = bakeLikeGreen(points, chosen, kOrder, side, static_cast<std::uint64_t>(i + 1));
+      std::vector<double> estimate;
+      for (std::size_t c = 0; c < chosen.size(); ++c) {
+        estimate.insert(estimate.end(), &judged.transfer[c * 3 * count], &judged.transfer[(c * 3 + 1) * count]);
+      }
+      errors.push_back(relativeError(reference, estimate, count));
+      ratios.push_back(bakeLikeGreen(points, timed, kOrder, side, static_cast<std::uint64_t>(i + 1)).cpu);
+    }
+    const double error = median(errors), green = median(ratios), own = ours.cpuAt(error);
+    std::printf("%-24s %8d %8.3f %10.3f %10.3f %10.2f\n", label.c_str(), side * side, 100 * error, green, own,
+                green / own);
+    std::fflush(stdout);
+  }
+}
+
+std::string labelOf(const std::string& name) {
+  return name.substr(name.rfind('/') + 1);
+}
+
+void run(const Options& o) {
+  std::printf("Shadowed bake, order 5, 3 channels, one thread: CPU time over Embree's alone for the same rays\n");
+  std::printf("%-24s %7s %5s %8s %10s %10s\n", "mesh", "points", "rays", "Mray/s", "filtered", "unfiltered");
+  for (const std::string& name : o.meshes) {
+    const LightingPoints points = pointsOf(name, {0.3f, 0.5f, 0.7f});
+    for (const int rays : {64, 256, 1024}) overRaw(labelOf(name), points, rays, o.repetitions);
+  }
+  std::printf("\nOrder 4, 1 channel, 256 rays: wall time of one thread over two; CPU time of 3 bounces over none\n");
+  std::printf("%-24s %14s %22s\n", "mesh", "1 / 2 threads", "3 bounces / shadowed");
+  for (const std::string& name : o.meshes) scaling(labelOf(name), pointsOf(name, {0.8f, 0.8f, 0.8f}), o.repetitions);
+  if (o.skipGreen) return;
+  std::printf(
+      "\nGreen's loop (order 4, 3 channels) and this bake at his error: CPU seconds for all points, without the BVH\n");
+  std::printf("%-24s %8s %8s %10s %10s %10s\n", "mesh", "samples", "error %", "Green", "shbake", "ratio");
+  for (const std::string& name : o.meshes) againstGreen(labelOf(name), pointsOf(name, {1, 1, 1}), o.repetitions);
+}
+
+}  // namespace
+}  // namespace shbake::bench
+
+int main(int argc, char** argv) {
+  using namespace shbake::bench;
+  CLI::App app{"Compares a bake with the tracing limit, with one thread and with Green's loop"};
+  Options o;
+  app.add_option("meshes", o.meshes, "files or generated meshes; default: all");
+  app.add_option("--repetitions", o.repetitions, "measurements of which the median counts");
+  app.add_flag("--skip-green", o.skipGreen, "leave out the comparison with Green's loop");
+  CLI11_PARSE(app, argc, argv);
+  if (o.meshes.empty()) o.meshes = defaultMeshes(SHBAKE_SHARED_DIR "/meshes");
+  try {
+    run(o);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "bench_speed: %s\n", e.what());
+    return 1;
+  }
+  return 0;
+}
