@@ -106,7 +106,7 @@ void ObjReader::readVertices() {
     } else if (keyword == "mtllib") {
       materials_.addLibrary(in.restOfLine());
     } else if (keyword != "usemtl" && std::find(std::begin(kSilent), std::end(kSilent), keyword) == std::end(kSilent)) {
-      if (passedOver_++ == 0) firstPassedOver_ = quoted(keyword) + " on line " + std::to_string(in.lineNumber());
+      if (passedOver_++ == 0) firstPassedOver_ = quotedWord(keyword) + " on line " + std::to_string(in.lineNumber());
     }
   }
   if (mesh_.positions.empty()) {
@@ -211,7 +211,8 @@ void ObjReader::readCorner(TextScanner& in, std::string_view word) {
     if (at == end || *at != '/' || part == 2) break;
     ++at;
   }
-  if (at != end || !given[0]) in.fail(quoted(word) + " is not a corner of a face", "write v, v/vt, v//vn or v/vt/vn");
+  if (at != end || !given[0])
+    in.fail(quotedWord(word) + " is not a corner of a face", "write v, v/vt, v//vn or v/vt/vn");
   cornerVertices_.push_back(resolveIndex(in, indices[0], soFar_.vertices, mesh_.positions.size(), "vertex"));
   cornerTextures_.push_back(
       given[1] ? resolveIndex(in, indices[1], soFar_.textures, textures_.size(), "texture coordinate") : kNone);

@@ -90,7 +90,7 @@ void OffReader::readHeader() {
   if (!in_.nextWordAnywhere(word)) in_.fail("the file holds no OFF header", "check that it is complete");
   if (parseHeader(word, kind_)) {
     if (kind_.fourth || kind_.anyDimension) {
-      in_.fail(quoted(word) + " holds points that are not three-dimensional", "convert it to OFF");
+      in_.fail(quotedWord(word) + " holds points that are not three-dimensional", "convert it to OFF");
     }
     if (!in_.nextWordAnywhere(word)) in_.fail("the file ends after the header", "check that it is complete");
     if (word == "BINARY") {

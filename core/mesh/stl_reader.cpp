@@ -142,7 +142,7 @@ void AsciiStlReader::readStatement() {
     if (inFacet_) in_.fail("a solid begins or ends inside a facet", "check that the file is complete");
     ended_ = equalWords(word, "endsolid");
   } else if (!equalWords(word, "outer") && !equalWords(word, "endloop")) {
-    in_.fail(quoted(word) + " is no keyword of STL", "export the mesh again, or convert it to PLY");
+    in_.fail(quotedWord(word) + " is no keyword of STL", "export the mesh again, or convert it to PLY");
   }
 }
 

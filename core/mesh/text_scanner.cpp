@@ -107,11 +107,11 @@ double TextScanner::toNumber(std::string_view word, const char* what) const {
   double value = 0;
   if (!parseNumber(word, value)) {
     const bool comma = word.find(',') != std::string_view::npos;
-    fail(quoted(word) + " is not a number where " + what + " should stand",
+    fail(quotedWord(word) + " is not a number where " + what + " should stand",
          comma ? "write decimals with a point, not a comma" : "correct the line or export the mesh again");
   }
   if (!std::isfinite(value)) {
-    fail(quoted(word) + " is not finite where " + what + " should stand",
+    fail(quotedWord(word) + " is not finite where " + what + " should stand",
          "remove the vertex or correct it in the program that wrote the file");
   }
   return value;
@@ -123,11 +123,12 @@ std::uint32_t TextScanner::toCount(std::string_view word, const char* what) cons
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(first, last, value);
   if (error == std::errc::invalid_argument || end != last) {
-    fail(quoted(word) + " is not a whole number where " + what + " should stand",
+    fail(quotedWord(word) + " is not a whole number where " + what + " should stand",
          "correct the line or export the mesh again");
   }
   if (error != std::errc() || value >= std::numeric_limits<std::uint32_t>::max()) {
-    fail(std::string(what) + " of " + quoted(word) + " is beyond the limit of 4294967294", "split the mesh into parts");
+    fail(std::string(what) + " of " + quotedWord(word) + " is beyond the limit of 4294967294",
+         "split the mesh into parts");
   }
   return static_cast<std::uint32_t>(value);
 }
@@ -153,7 +154,7 @@ bool parseNumber(std::string_view word, double& value) {
   return true;
 }
 
-std::string quoted(std::string_view word) {
+std::string quotedWord(std::string_view word) {
   constexpr std::size_t kLongest = 40;
   std::string text = "\"";
   for (const char c : word.substr(0, kLongest)) text += c >= ' ' && c <= '~' ? c : '?';

@@ -66,6 +66,6 @@ class TextScanner {
 bool parseNumber(std::string_view word, double& value);
 
 /// A word as a message shows it: in quotes, shortened, unprintable bytes as '?'.
-std::string quoted(std::string_view word);
+std::string quotedWord(std::string_view word);
 
 }  // namespace shbake
