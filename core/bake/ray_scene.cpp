@@ -19,17 +19,46 @@
 namespace shbake {
 namespace {
 
-constexpr float kNearUlps = 8;
+/// A position lies on a face where it is this near to its plane, in units of the coordinate scale: rounding to float
+/// moves the position and the plane by sqrt(3)/4 ulp each, together 0.87 ulp.
+constexpr double kContactUlps = 1;
+/// Float hit distances are off by a few ulp of the coordinate scale; hits that seem farther from contact than this are.
+constexpr double kSuspectUlps = 16;
 
-/// Rejects hits on faces that touch the ray's own position, whose id every ray carries.
+/// What the filter needs beside the ray and the hit.
+struct FilterData {
+  const Triangle* faces = nullptr;
+  const Vec3f* positions = nullptr;
+  double contact = 0, suspect = 0;  // distances to a plane, in work units
+};
+
+/// Whether `origin` lies on the plane of a face but for the rounding of coordinates. Exact to double.
+bool inContact(const FilterData& data, const Triangle& t, const Vec3f& origin) {
+  const Vec3d a(data.positions[t[0]]), b(data.positions[t[1]]), c(data.positions[t[2]]);
+  const Vec3d normal = cross(b - a, c - a);
+  return std::abs(dot(normal, a - Vec3d(origin))) <= data.contact * length(normal);
+}
+
+/// Rejects hits on faces that touch the ray's own position, whose id every ray carries: those that share it, and those
+/// that it lies on without sharing it.
 void leaveOutOwnFaces(const RTCFilterFunctionNArguments* args) {
-  const auto* faces = static_cast<const Triangle*>(args->geometryUserPtr);
+  const auto& data = *static_cast<const FilterData*>(args->geometryUserPtr);
   const unsigned n = args->N;
   for (unsigned i = 0; i < n; ++i) {
     if (args->valid[i] != -1) continue;
-    const Triangle& t = faces[RTCHitN_primID(args->hit, n, i)];
+    const Triangle& t = data.faces[RTCHitN_primID(args->hit, n, i)];
     const unsigned position = RTCRayN_id(args->ray, n, i);
-    if (t[0] == position || t[1] == position || t[2] == position) args->valid[i] = 0;
+    if (t[0] == position || t[1] == position || t[2] == position) {
+      args->valid[i] = 0;
+      continue;
+    }
+    const Vec3d normal(
+        Vec3f(RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i), RTCHitN_Ng_z(args->hit, n, i)));
+    const Vec3d direction(
+        Vec3f(RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i), RTCRayN_dir_z(args->ray, n, i)));
+    const double height = dot(normal, direction) * static_cast<double>(RTCRayN_tfar(args->ray, n, i));
+    if (height * height > data.suspect * data.suspect * dot(normal, normal)) continue;
+    if (inContact(data, t, data.positions[position])) args->valid[i] = 0;
   }
 }
 
@@ -50,7 +79,8 @@ struct RayScene::State {
   RTCScene scene = nullptr;
   const LightingPoints* points = nullptr;
   std::vector<Vec3f> positions;  // with the padding that Embree reads past the end
-  float near = 0, far = 0;
+  FilterData filter;
+  float far = 0;
   bool packets = false;  // 16-wide packets are native; the stream is faster elsewhere
   RTCError error = RTC_ERROR_NONE;
   std::string errorText;
@@ -82,11 +112,12 @@ RayScene::RayScene(const LightingPoints& points, float maxDistance, int threads,
   s.points = &points;
   float scale = 0;
   for (const Vec3f& p : points.positions) scale = std::max({scale, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  s.near = kNearUlps * FLT_EPSILON * scale;
   s.far = maxDistance;
   s.positions.reserve(points.positions.size() + 1);
   s.positions = points.positions;
   s.positions.emplace_back();
+  s.filter = {points.faces.data(), s.positions.data(), kContactUlps * FLT_EPSILON * static_cast<double>(scale),
+              kSuspectUlps * FLT_EPSILON * static_cast<double>(scale)};
 
   const FlushDenormals flush;
   s.device = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
@@ -106,7 +137,7 @@ RayScene::RayScene(const LightingPoints& points, float maxDistance, int threads,
                              sizeof(Vec3f), points.positions.size());
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, points.faces.data(), 0,
                              sizeof(Triangle), points.faces.size());
-  rtcSetGeometryUserData(geometry, const_cast<Triangle*>(points.faces.data()));
+  rtcSetGeometryUserData(geometry, &s.filter);
   rtcSetGeometryOccludedFilterFunction(geometry, leaveOutOwnFaces);
   rtcSetGeometryIntersectFilterFunction(geometry, leaveOutOwnFaces);
   rtcCommitGeometry(geometry);
@@ -129,11 +160,11 @@ namespace {
 
 /// Fills entry i of a packet or stream with what all rays of a point share.
 template <class Packet>
-void setCommon(Packet& r, unsigned i, const Vec3f& origin, float near, std::uint32_t position) {
+void setCommon(Packet& r, unsigned i, const Vec3f& origin, std::uint32_t position) {
   r.org_x[i] = origin.x;
   r.org_y[i] = origin.y;
   r.org_z[i] = origin.z;
-  r.tnear[i] = near;
+  r.tnear[i] = 0;
   r.time[i] = 0;
   r.mask[i] = ~0u;
   r.id[i] = position;
@@ -158,14 +189,12 @@ std::array<int, 16> laneFlags(std::uint16_t active) {
 
 /// Appends the active rays to the stream; returns how many there are.
 template <class Slots>
-unsigned fillStream(RTCRayHit* stream, Slots& slots, const RayScene::Rays& rays, const Vec3f& origin, float near,
-                    float far) {
+unsigned fillStream(RTCRayHit* stream, Slots& slots, const RayScene::Rays& rays, const Vec3f& origin, float far) {
   unsigned n = 0;
   for (int g = 0; g < rays.groups; ++g) {
     for (unsigned bits = rays.active[g]; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::size_t>(g) * 16 + static_cast<unsigned>(__builtin_ctz(bits));
-      stream[n].ray = {origin.x,  origin.y, origin.z, near, rays.x[k],     rays.y[k],
-                       rays.z[k], 0,        far,      ~0u,  rays.position, 0};
+      stream[n].ray = {origin.x, origin.y, origin.z, 0, rays.x[k], rays.y[k], rays.z[k], 0, far, ~0u, rays.position, 0};
       slots[n++] = static_cast<std::uint16_t>(k);
     }
   }
@@ -181,7 +210,7 @@ void RayScene::occluded(const Rays& rays, Buffers& buffers, std::uint16_t* hit) 
   rtcInitIntersectContext(&context);
   std::fill_n(hit, rays.groups, std::uint16_t(0));
   if (!s.packets) {
-    const unsigned n = fillStream(buffers.stream.data(), buffers.slot, rays, origin, s.near, s.far);
+    const unsigned n = fillStream(buffers.stream.data(), buffers.slot, rays, origin, s.far);
     rtcOccluded1M(s.scene, &context, &buffers.stream[0].ray, n, sizeof(RTCRayHit));
     for (unsigned i = 0; i < n; ++i) {
       const bool blocked = buffers.stream[i].ray.tfar < 0;
@@ -190,7 +219,7 @@ void RayScene::occluded(const Rays& rays, Buffers& buffers, std::uint16_t* hit) 
     return;
   }
   RTCRay16& r = buffers.packet.ray;
-  for (unsigned i = 0; i < 16; ++i) setCommon(r, i, origin, s.near, rays.position);
+  for (unsigned i = 0; i < 16; ++i) setCommon(r, i, origin, rays.position);
   for (int g = 0; g < rays.groups; ++g) {
     if (rays.active[g] == 0) continue;
     setDirections(r, rays, g, s.far);
@@ -214,7 +243,7 @@ void RayScene::closest(const Rays& rays, Buffers& buffers, std::uint16_t* hit, s
     hits[k] = {face, quantise(u), quantise(v)};
   };
   if (!s.packets) {
-    const unsigned n = fillStream(buffers.stream.data(), buffers.slot, rays, origin, s.near, s.far);
+    const unsigned n = fillStream(buffers.stream.data(), buffers.slot, rays, origin, s.far);
     for (unsigned i = 0; i < n; ++i) buffers.stream[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1M(s.scene, &context, buffers.stream.data(), n, sizeof(RTCRayHit));
     for (unsigned i = 0; i < n; ++i) {
@@ -227,7 +256,7 @@ void RayScene::closest(const Rays& rays, Buffers& buffers, std::uint16_t* hit, s
   }
   RTCRay16& r = buffers.packet.ray;
   RTCHit16& h = buffers.packet.hit;
-  for (unsigned i = 0; i < 16; ++i) setCommon(r, i, origin, s.near, rays.position);
+  for (unsigned i = 0; i < 16; ++i) setCommon(r, i, origin, rays.position);
   for (int g = 0; g < rays.groups; ++g) {
     if (rays.active[g] == 0) continue;
     setDirections(r, rays, g, s.far);

@@ -17,9 +17,10 @@ struct Hit {
 };
 
 /// Faces touching the ray's own position never count as hit: they are found by comparing welded position ids in a
-/// filter, not by an offset (Green 2003's exclusion rule; see fan_test.h for what it misses). On top of it rays begin 8
-/// ulp of the coordinate scale from their origin, since faces that touch the position without sharing it (T-junctions,
-/// a box standing on the ground) are hit at distances of rounding error.
+/// filter, not by an offset (Green 2003's exclusion rule; see fan_test.h for what it misses). Nor do faces that the
+/// position lies on without sharing it (T-junctions, a box standing on the ground), up to the rounding of coordinates:
+/// 1 ulp of the coordinate scale, measured from the position to the face's plane. Measured along the ray, it would be
+/// exceeded by grazing rays on one side and would lose near faces that are met head-on on the other.
 class RayScene {
  public:
   /// Rays of one point, at most this many in a call.
