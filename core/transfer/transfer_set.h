@@ -3,9 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "base/vec3.h"
 
 namespace shbake {
 
@@ -14,6 +18,8 @@ enum class TransferKind { unshadowed, shadowed, interreflected };
 
 /// The name used on the command line and in files: "unshadowed", "shadowed", "interreflected".
 const char* transferName(TransferKind kind);
+/// The kind of that name, spelt exactly so; nothing for any other word.
+std::optional<TransferKind> transferKindOf(std::string_view name);
 
 /// SH transfer vectors of a list of points (design: conventions "Basis" and "Units").
 /// Outgoing radiance of point p in channel c under light L is the sum over i of L_i * at(p, c)[i].
@@ -22,8 +28,8 @@ struct TransferSet {
   int channels = 1;  ///< 1 where all albedo is grey, else 3 (red, green, blue)
 
   std::vector<float> coefficients;  ///< points x channels x order^2, index l(l+1)+m fastest
-  std::vector<float> error;         ///< stated standard error of each point, relative to its unshadowed transfer; or empty
-  std::vector<float> visibility;    ///< cosine-weighted share of the sky that each point sees, 0..1; or empty
+  std::vector<float> error;  ///< stated standard error of each point, relative to its unshadowed transfer; or empty
+  std::vector<float> visibility;  ///< cosine-weighted share of the sky that each point sees, 0..1; or empty
 
   int coefficientsPerChannel() const { return order * order; }
   std::size_t stride() const { return static_cast<std::size_t>(channels * order * order); }
@@ -34,21 +40,33 @@ struct TransferSet {
   }
 };
 
+/// Where the albedo behind a transfer came from.
+enum class AlbedoOrigin { unknown, uniform, vertexColors, faceColors };
+
+/// The albedo behind a transfer: what is needed to tell it again from the mesh.
+struct AlbedoFacts {
+  bool included = true;  ///< the direct term has been multiplied by it
+  AlbedoOrigin origin = AlbedoOrigin::unknown;
+  Rgb uniform;                  ///< linear, for AlbedoOrigin::uniform
+  bool bytesAreLinear = false;  ///< 8-bit colours were taken as linear instead of sRGB
+};
+
 /// How a transfer set came about: written to and read from file headers.
 struct TransferFacts {
   std::string version;  ///< of the shbake that baked
   TransferKind kind = TransferKind::interreflected;
-  int bounces = 0;              ///< reflections summed; the number of solver steps where `bouncesConverged`
-  bool bouncesConverged = false;///< reflections were summed to the tolerance, not to a count
-  int rays = 0;                 ///< directions a point; 0 for the closed form
+  int bounces = 0;                ///< reflections summed; the number of solver steps where `bouncesConverged`
+  bool bouncesConverged = false;  ///< reflections were summed to the tolerance, not to a count
+  int rays = 0;                   ///< directions a point; 0 for the closed form
   std::uint64_t seed = 0;
-  std::string sampler;          ///< "closed-form" or "cosine-fibonacci"
-  double rmsError = 0;          ///< area-weighted RMS of the stated errors
-  double maxError = 0;          ///< the largest stated error
-  double tolerance = 0;         ///< what was asked for; 0 when rays were given instead
+  std::string sampler;   ///< "closed-form" or "cosine-fibonacci"
+  double rmsError = 0;   ///< area-weighted RMS of the stated errors
+  double maxError = 0;   ///< the largest stated error
+  double tolerance = 0;  ///< what was asked for; 0 when rays were given instead
+  AlbedoFacts albedo;
   std::size_t lightingPoints = 0;
   std::size_t sourceVertices = 0;
-  std::string source;           ///< the mesh file's name without its folder
+  std::string source;  ///< the mesh file's name without its folder
 };
 
 }  // namespace shbake
