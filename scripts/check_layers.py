@@ -34,7 +34,7 @@ OWNERS = {
     "tbb/": {"base"},
     "nlohmann/": {"light", "transfer", "cli"},
     "Eigen/": {"bake", "mesh", "view"},
-    "CLI/": {"cli"},
+    "CLI/": {"cli", "bench"},
 }
 
 

@@ -1,0 +1,233 @@
+// `shbake bake`: a mesh in, the mesh with its light transfer out.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+
+#include "cli/describe_transfer.h"
+#include "cli/format.h"
+#include "cli/options.h"
+#include "cli/parse.h"
+#include "cli/verb.h"
+
+namespace shbake::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Bake : public Verb {
+ public:
+  void declare(CLI::App& app) override;
+  void run(Session& session) override;
+
+ private:
+  void declareTransfer(CLI::App& app);
+  void declareSurface(CLI::App& app);
+  void checkPaths() const;
+  void warnOfIdleOptions(Session& session) const;
+  void describe(const BakedMesh& baked, Session& session) const;
+
+  std::string mesh_, output_;
+  std::vector<std::string> blockers_;
+  BakeMeshOptions options_;
+  BakedPlyOptions ply_;
+  bool force_ = false;
+  CLI::Option *rays_ = nullptr, *tolerance_ = nullptr, *bounces_ = nullptr, *seed_ = nullptr, *crease_ = nullptr;
+};
+
+void Bake::declare(CLI::App& app) {
+  addFile(app, "MESH", mesh_, "the mesh to bake: PLY, OBJ, OFF or STL");
+  addText(app, {"-o,--output", "FILE", "the PLY file to write; required"}, output_);
+  declareTransfer(app);
+  declareSurface(app);
+  addSwitch(app, "--ascii", ply_.ascii, "write the file as text instead of binary");
+  addSwitch(app, "--force", force_, "let the output replace the mesh that is baked or a blocker");
+}
+
+void Bake::declareTransfer(CLI::App& app) {
+  BakeOptions& bake = options_.bake;
+  addChoice<TransferKind>(app, {"--transfer", "KIND", "unshadowed (closed form), shadowed, or interreflected"},
+                          bake.kind,
+                          {{"unshadowed", TransferKind::unshadowed},
+                           {"shadowed", TransferKind::shadowed},
+                           {"interreflected", TransferKind::interreflected}});
+  addWhole(app, {"--order", "N", "bands of spherical harmonics, 1..32: N x N coefficients a channel"}, bake.order, 1,
+           32);
+  rays_ = addOption(app, {"--rays", "N", "rays a point, 1..1048576, rounded up to a multiple of 16"},
+                    "as many as --tolerance needs", [&bake](const std::string& name, const std::string& text) {
+                      bake.rays = static_cast<int>(parseWhole(name, text, 1, 1 << 20));
+                    });
+  tolerance_ = addReal(
+      app, {"--tolerance", "E", "error to reach, 0.0001..1: RMS over the mesh, relative to the unshadowed transfer"},
+      bake.tolerance, 1e-4, 1);
+  bounces_ = addOption(app, {"--bounces", "N", "reflections to sum, 0..10000, or auto: until --tolerance is reached"},
+                       "auto", [&bake](const std::string& name, const std::string& text) {
+                         bake.bounces = text == "auto" ? BakeOptions::kBouncesAuto
+                                                       : static_cast<int>(parseWhole(name, text, 0, 10000));
+                       });
+  addOption(app, {"--max-distance", "D", "faces farther away than this, in the file's units, are not seen"}, "no limit",
+            [&bake](const std::string& name, const std::string& text) {
+              bake.maxDistance = parseReal(name, text, std::numeric_limits<double>::min(), 1e300);
+            });
+  seed_ = addWhole(app, {"--seed", "N", "another number of 0 or more takes another sample of directions"}, bake.seed, 0,
+                   std::numeric_limits<std::int64_t>::max());
+  addOption(app, {"--memory", "BYTES", "memory for stored hits, such as 512M or 4G; never changes the result"},
+            "half of what is free",
+            [&bake](const std::string& name, const std::string& text) { bake.memory = parseBytes(name, text); });
+}
+
+void Bake::declareSurface(CLI::App& app) {
+  addSwitch(app, "--two-sided", options_.bake.twoSided, "faces reflect from both sides (they block from both anyway)");
+  app.add_option("--blockers", blockers_, "meshes that cast shadows and reflect but are not baked themselves")
+      ->type_name("FILE...");
+  AlbedoOptions& albedo = options_.albedo;
+  addOption(app,
+            {"--albedo", "A",
+             "share of light that is reflected: R or R,G,B, linear, 0..1; vertex or face: the file's colours; auto: "
+             "these where it has them, else 0.8"},
+            "auto", [&albedo](const std::string& name, const std::string& text) {
+              if (text == "auto" || text == "vertex" || text == "face") {
+                albedo.source = text == "auto"     ? AlbedoSource::automatic
+                                : text == "vertex" ? AlbedoSource::vertex
+                                                   : AlbedoSource::face;
+                return;
+              }
+              albedo.source = AlbedoSource::uniform;
+              albedo.uniform = parseRgb(name, text);
+            });
+  addChoice<bool>(app,
+                  {"--albedo-space", "SPACE", "what 8-bit colours of the file are: srgb (display values) or linear"},
+                  albedo.bytesAreLinear, {{"srgb", false}, {"linear", true}});
+  addChoice<NormalSource>(
+      app,
+      {"--normals", "KIND", "auto: the file's where it has them, else smooth; smooth: made anew; flat: the faces'"},
+      options_.points.normals,
+      {{"auto", NormalSource::automatic}, {"smooth", NormalSource::smooth}, {"flat", NormalSource::flat}});
+  crease_ =
+      addReal(app, {"--crease", "DEG", "faces that meet at more than this angle, 0..180 degrees, share no normal"},
+              options_.points.creaseDegrees, 0, 180);
+}
+
+/// Refuses outputs that cannot be meant, before any work is done.
+void Bake::checkPaths() const {
+  const std::string usage = "usage: shbake bake MESH -o OUT.ply";
+  if (mesh_.empty()) {
+    throw usageError("no mesh is named", blockers_.empty() ? usage : usage + "; the mesh comes before --blockers");
+  }
+  if (output_.empty()) throw usageError("no output is named", usage);
+  std::string extension = fs::path(output_).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  if (!extension.empty() && extension != ".ply") {
+    throw Error({.kind = ErrorKind::usage,
+                 .file = output_,
+                 .cause = "'" + extension + "' is not a format that shbake bake writes",
+                 .remedy = "name the output .ply"});
+  }
+  std::vector<std::string> inputs = blockers_;
+  inputs.push_back(mesh_);
+  for (const std::string& input : inputs) {
+    std::error_code none;
+    if (force_ || !fs::equivalent(input, output_, none)) continue;
+    throw Error({.kind = ErrorKind::usage,
+                 .file = output_,
+                 .cause = "would replace the mesh it is baked from",
+                 .remedy = "name another output, or add --force"});
+  }
+  checkWritable(output_);
+}
+
+void Bake::warnOfIdleOptions(Session& session) const {
+  const TransferKind kind = options_.bake.kind;
+  const std::string with = std::string(" has no effect with --transfer ") + transferName(kind);
+  if (kind == TransferKind::unshadowed) {
+    if (rays_->count() > 0) session.warn("--rays" + with);
+    if (tolerance_->count() > 0) session.warn("--tolerance" + with);
+    if (seed_->count() > 0) session.warn("--seed" + with);
+    if (!blockers_.empty()) session.warn("--blockers" + with);
+  }
+  if (kind != TransferKind::interreflected && bounces_->count() > 0) session.warn("--bounces" + with);
+  if (options_.points.normals == NormalSource::flat && crease_->count() > 0) {
+    session.warn("--crease has no effect with --normals flat");
+  }
+}
+
+void Bake::run(Session& session) {
+  checkPaths();
+  warnOfIdleOptions(session);
+  Mesh mesh = readMesh(mesh_, session.progress);
+  std::vector<Mesh> blockers;
+  for (const std::string& path : blockers_) blockers.push_back(readMesh(path, session.progress));
+  const BakedMesh baked = bakeMesh(std::move(mesh), blockers, options_, session.parallel, session.progress);
+  writeBakedPly(output_, baked.mesh, baked.transfer, baked.facts, baked.sourceVertex, ply_, session.progress);
+  session.display.finish();
+  for (const std::string& sentence : baked.warnings) session.warn(sentence);
+  describe(baked, session);
+}
+
+/// The times of the stages as one line, longest first, those below a hundredth of a second left out.
+std::string describeStages(std::vector<ProgressDisplay::Stage> stages) {
+  std::stable_sort(stages.begin(), stages.end(), [](const auto& a, const auto& b) { return a.seconds > b.seconds; });
+  std::string text;
+  for (const auto& stage : stages) {
+    if (stage.seconds < 0.01) break;
+    text += (text.empty() ? "" : ", ") + stage.name + " " + formatDuration(stage.seconds);
+  }
+  return text;
+}
+
+/// Adds how long the work took and how fast rays were traced.
+void describeTime(Session& session) {
+  double seconds = 0, rays = 0, tracing = 0;
+  for (const auto& stage : session.display.stages()) {
+    seconds += stage.seconds;
+    if (stage.unit != "rays") continue;
+    rays += stage.done;
+    tracing += stage.seconds;
+  }
+  Report& report = session.report;
+  const std::string stages = describeStages(session.display.stages());
+  report.fact("seconds", seconds, "time", formatDuration(seconds) + (stages.empty() ? "" : " (" + stages + ")"));
+  report.data("traced_rays", rays);
+  report.data("peak_memory", static_cast<std::int64_t>(peakMemory()));
+  const int threads = session.parallel.threads();
+  report.data("threads", std::int64_t(threads));
+  if (rays > 0 && tracing > 0) {
+    report.line("rate", formatShort(rays / tracing) + " rays/s on " + std::to_string(threads) +
+                            (threads == 1 ? " thread" : " threads"));
+  }
+}
+
+void Bake::describe(const BakedMesh& baked, Session& session) const {
+  const TransferFacts& facts = baked.facts;
+  Report& report = session.report;
+  const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
+
+  report.data("input.file", mesh_);
+  report.data("input.vertices", whole(facts.sourceVertices));
+  report.fact(
+      "output.points", whole(facts.lightingPoints), "points",
+      formatCount(facts.lightingPoints) + " lighting points, from " + formatCount(facts.sourceVertices) + " vertices");
+  report.fact("albedo", baked.albedoNote, "albedo", baked.albedoNote);
+  describeTransfer(baked.transfer, &facts, report);
+  describeTime(session);
+  report.data("output.file", output_);
+  report.data("output.vertices", whole(baked.transfer.size()));
+  std::error_code none;
+  const auto size = fs::is_regular_file(output_, none) ? fs::file_size(output_, none) : 0;
+  report.fact("output.bytes", whole(size), "output", output_ + (size > 0 ? ", " + formatBytes(double(size)) : ""));
+}
+
+}  // namespace
+
+extern const VerbEntry bakeVerb;
+const VerbEntry bakeVerb{
+    "bake", "MESH -o FILE", "bake light transfer into the vertices of a mesh",
+    "Bakes how light reaches every vertex of MESH, with shadows and reflections, as spherical harmonics that turn any "
+    "distant light into radiance, and writes the mesh with them as a PLY file.\n"
+    "\n"
+    "Examples:\n"
+    "  shbake bake bunny.obj -o bunny.ply\n"
+    "  shbake bake city.ply -o city_sh.ply --transfer shadowed --rays 1024",
+    [] { return std::unique_ptr<Verb>(std::make_unique<Bake>()); }};
+
+}  // namespace shbake::cli
