@@ -41,16 +41,10 @@ HazelLight toHazel(std::span<const double> nine) {
 }
 
 std::array<double, 9> toCoefficients(const HazelLight& light) {
-  const double trace = light.xx + light.yy + light.zz;
-  return {kMean * light.r0,
-          kVector * light.r1.y,
-          kVector * light.r1.z,
-          kVector * light.r1.x,
-          kMixed * light.xy,
-          kMixed * light.yz,
-          kAxial * (light.zz - trace / 3),
-          kMixed * light.xz,
-          kDifference * (light.xx - light.yy)};
+  const double axial = (2 * light.zz - light.xx - light.yy) / 3;  // R_zz where the trace is zero
+  return {kMean * light.r0,     kVector * light.r1.y, kVector * light.r1.z,
+          kVector * light.r1.x, kMixed * light.xy,    kMixed * light.yz,
+          kAxial * axial,       kMixed * light.xz,    kDifference * (light.xx - light.yy)};
 }
 
 double radiance(const HazelLight& light, const Vec3d& direction) {

@@ -10,14 +10,15 @@
 namespace shbake::sh {
 namespace {
 
-/// Largest entry of a^T a - 1; NaN when `a` has one.
+/// Largest entry of a^T a - 1; infinity when `a` holds what is not finite.
 double orthogonalityError(const Matrix3d& a) {
   const Matrix3d gram = transposed(a) * a;
   double largest = 0;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       const double error = std::abs(gram(i, j) - (i == j ? 1 : 0));
-      if (!(error <= largest)) largest = error;
+      if (!std::isfinite(error)) return INFINITY;
+      largest = std::max(largest, error);
     }
   }
   return largest;

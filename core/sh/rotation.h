@@ -13,7 +13,7 @@ namespace shbake::sh {
 class Rotation {
  public:
   /// Bands 0..order-1 of the rotation nearest to `matrix` (see nearestRotation(), whose errors it throws). Orthogonal
-  /// to 2e-15 at order 9, 1e-13 at order 33 and 2e-11 at order 65. Throws a usage error unless 1 <= order <=
+  /// to 3e-15 at order 9, 1e-13 at order 33 and 2e-11 at order 65. Throws a usage error unless 1 <= order <=
   /// kMaxBasisOrder.
   Rotation(int order, const Matrix3d& matrix);
 

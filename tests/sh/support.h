@@ -43,12 +43,14 @@ inline double valueAt(int order, const std::vector<double>& c, const Vec3d& d) {
   return sum;
 }
 
-/// The largest absolute difference of two arrays of one length.
+/// The largest absolute difference of two arrays of one length; infinity where a difference is not finite.
 inline double maxDifference(std::span<const double> a, std::span<const double> b) {
   if (a.size() != b.size()) return INFINITY;
   double largest = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    if (!(std::abs(a[i] - b[i]) <= largest)) largest = std::abs(a[i] - b[i]);
+    const double difference = std::abs(a[i] - b[i]);
+    if (!std::isfinite(difference)) return INFINITY;
+    largest = std::max(largest, difference);
   }
   return largest;
 }

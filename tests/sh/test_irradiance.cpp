@@ -67,3 +67,56 @@ TEST_CASE("the unshadowed norm is the length of the unshadowed transfer") {
   // Parseval: the limit is the norm of max(cos, 0) / pi, sqrt(2 pi / 3) / pi.
   REQUIRE(unshadowedNorm(1000) == Approx(std::sqrt(2 * kPi / 3) / kPi).epsilon(1e-9));
 }
+
+TEST_CASE("truncated cosine lobes: energy kept and greatest error of orders 1 to 3") {
+  // max(u, 0) = 1/4 + u/2 + 5/16 P_2(u) + ..., of squared norm 2 pi / 3.
+  const double energy[] = {0.375, 0.875, 0.9921875}, error[] = {0.75, 0.25, 0.09375};
+  for (int order = 1; order <= 3; ++order) {
+    const double kept = unshadowedNorm(order) * kPi;
+    REQUIRE(kept * kept / (2 * kPi / 3) == Approx(energy[order - 1]).epsilon(1e-14));
+    std::vector<double> lobe(coefficientCount(order));
+    unshadowedTransfer(order, {0, 0, 1}, kPi, lobe);
+    double largest = 0, least = 0;
+    for (int i = 0; i <= 2000; ++i) {
+      const double u = -1 + i / 1000.0, value = valueAt(order, lobe, {std::sqrt(1 - u * u), 0, u});
+      largest = std::max(largest, std::abs(value - std::max(u, 0.0)));
+      least = std::min(least, value);
+    }
+    REQUIRE(largest == Approx(error[order - 1]).epsilon(1e-12));
+    if (order == 2) REQUIRE(least == Approx(-0.25).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("irradiance is the integral of radiance times the cosine") {
+  // A light of order 3 and a normal along z: the integral over the upper hemisphere as a polynomial rule in z and
+  // azimuth.
+  const auto light = randomCoefficients(3, 43);
+  const int nodes = 2000, azimuths = 8;
+  double sum = 0;
+  for (int i = 0; i < nodes; ++i) {
+    const double z = (i + 0.5) / nodes, r = std::sqrt(1 - z * z);
+    for (int k = 0; k < azimuths; ++k) {
+      const double phi = 2 * kPi * (k + 0.5) / azimuths;
+      sum += z * valueAt(3, light, {r * std::cos(phi), r * std::sin(phi), z});
+    }
+  }
+  // Midpoints err by at most (second derivative, below 20) / (24 nodes^2) times 2 pi.
+  REQUIRE(std::abs(sum * 2 * kPi / (nodes * azimuths) - irradianceAt(3, light, {0, 0, 1})) < 2e-6);
+  std::vector<double> e(9);
+  irradiance(3, light, e);
+  const Vec3d n = randomDirection(44, 0);
+  REQUIRE(std::abs(valueAt(3, e, n) - irradianceAt(3, light, n)) < 1e-14);
+  REQUIRE_THROWS_AS(irradiance(4, light, e), Error);
+  REQUIRE_THROWS_AS(irradianceAt(4, light, n), Error);
+}
+
+TEST_CASE("the constants of nine-coefficient shaders; the comment 1/4 sqrt(15 pi) for .4290 is wrong") {
+  const double k2 = cosineLobe(2), k1 = cosineLobe(1), k0 = cosineLobe(0);
+  const auto x = basisAt(3, {1, 0, 0}), z = basisAt(3, {0, 0, 1});
+  REQUIRE(k2 * x[8] == Approx(0.429043).epsilon(2e-6));
+  REQUIRE(k2 * x[8] == Approx(std::sqrt(15 * kPi) / 16).epsilon(1e-14));
+  REQUIRE(std::abs(k2 * x[8] - std::sqrt(15 * kPi) / 4) > 1);
+  REQUIRE(k1 * x[3] / 2 == Approx(0.511663).epsilon(2e-6));
+  REQUIRE(k2 * z[6] / 2 == Approx(0.247708).epsilon(2e-6));
+  REQUIRE(k0 * x[0] == Approx(0.886227).epsilon(2e-6));
+}
