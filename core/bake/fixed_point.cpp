@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace shbake {
@@ -32,7 +33,13 @@ struct Products {
 class Solver {
  public:
   Solver(std::size_t rows, std::size_t columns, const Parallel& parallel)
-      : rows_(rows), columns_(columns), parallel_(parallel), products_(columns), slowness_(columns, 1.0) {}
+      : rows_(rows),
+        columns_(columns),
+        parallel_(parallel),
+        products_(columns),
+        slowness_(columns, 1.0),
+        settled_(columns, 0),
+        held_(columns, 0) {}
 
   /// Takes up the newest evaluation, dropping the oldest when the window is full.
   void add(Iterate iterate) {
@@ -45,9 +52,49 @@ class Solver {
       }
     }
     window_.push_back(std::move(iterate));
+    held_ = settled_;
     multiplyNewest();
   }
 
+  /// Whether column k is solved, now or earlier. From then on it is held, whatever the others still need: further steps
+  /// would make its result depend on them.
+  bool settle(std::size_t k, double tolerance) {
+    if (!settled_[k]) settled_[k] = error(k) <= tolerance;
+    return settled_[k] != 0;
+  }
+
+  /// The next point: the combination of gx with the least combined residual. Reuses the memory of `next`.
+  void combine(std::vector<float>& next) const {
+    std::vector<std::array<double, kWindow>> weights(columns_);
+    for (std::size_t k = 0; k < columns_; ++k) weights[k] = leastResidual(products_[k].f);
+    next.resize(rows_ * columns_);
+    parallel_.forBlocks(rows_, kBlock, [&](std::size_t begin, std::size_t end, int) {
+      for (std::size_t r = begin; r < end; ++r) {
+        for (std::size_t k = 0; k < columns_; ++k) {
+          if (settled_[k]) {
+            next[r * columns_ + k] = newest(r * columns_ + k, k);
+            continue;
+          }
+          double value = 0;
+          for (std::size_t i = 0; i < window_.size(); ++i) {
+            value += weights[k][i] * static_cast<double>(window_[i].gx[r * columns_ + k]);
+          }
+          next[r * columns_ + k] = static_cast<float>(value);
+        }
+      }
+    });
+  }
+
+  /// The newest values of all columns; the window is of no use afterwards.
+  std::vector<float> takeNewest() {
+    std::vector<float> values = std::move(window_.back().gx);
+    for (std::size_t k = 0; k < columns_; ++k) {
+      for (std::size_t e = k; held_[k] && e < values.size(); e += columns_) values[e] = window_.back().x[e];
+    }
+    return values;
+  }
+
+ private:
   /// The estimated error of column k's newest evaluation.
   double error(std::size_t k) {
     const std::size_t n = window_.size() - 1;
@@ -59,27 +106,9 @@ class Solver {
     return slowness_[k] * std::sqrt(std::max(0.0, f[n][n]));
   }
 
-  /// The next point: the combination of gx with the least combined residual. Reuses the memory of `next`.
-  void combine(std::vector<float>& next) const {
-    std::vector<std::array<double, kWindow>> weights(columns_);
-    for (std::size_t k = 0; k < columns_; ++k) weights[k] = leastResidual(products_[k].f);
-    next.resize(rows_ * columns_);
-    parallel_.forBlocks(rows_, kBlock, [&](std::size_t begin, std::size_t end, int) {
-      for (std::size_t r = begin; r < end; ++r) {
-        for (std::size_t k = 0; k < columns_; ++k) {
-          double value = 0;
-          for (std::size_t i = 0; i < window_.size(); ++i) {
-            value += weights[k][i] * static_cast<double>(window_[i].gx[r * columns_ + k]);
-          }
-          next[r * columns_ + k] = static_cast<float>(value);
-        }
-      }
-    });
-  }
+  /// Element e, of column k: where g takes it, or where it was when the column was solved.
+  float newest(std::size_t e, std::size_t k) const { return held_[k] ? window_.back().x[e] : window_.back().gx[e]; }
 
-  std::vector<float> takeNewest() { return std::move(window_.back().gx); }
-
- private:
   /// Products of the newest residual with all, summed block by block in a fixed order.
   void multiplyNewest() {
     const std::size_t n = window_.size() - 1, blocks = (rows_ + kBlock - 1) / kBlock;
@@ -137,6 +166,8 @@ class Solver {
   std::vector<Iterate> window_;
   std::vector<Products> products_;
   std::vector<double> slowness_;
+  std::vector<std::uint8_t> settled_;  // columns that are solved
+  std::vector<std::uint8_t> held_;     // columns that were solved before the newest evaluation: x has their result
 };
 
 }  // namespace
@@ -152,7 +183,7 @@ FixedPointResult solveFixedPoint(std::size_t rows, std::size_t columns, std::vec
     ++result.steps;
     solver.add(std::move(iterate));
     result.converged = true;
-    for (std::size_t k = 0; k < columns; ++k) result.converged &= solver.error(k) <= options.tolerance;
+    for (std::size_t k = 0; k < columns; ++k) result.converged &= solver.settle(k, options.tolerance);
     if (result.converged || result.steps >= options.maxSteps) {
       x = solver.takeNewest();
       return result;
