@@ -1,0 +1,56 @@
+// Visibility from a lighting point in double precision, which knows where float arithmetic may decide either way.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "mesh/lighting_points.h"
+
+namespace shbake::testing {
+
+/// What a point sees in a direction. `either`: the direction passes so close to an edge, or to a plane of a face, that
+/// the rounding of a float test explains both answers.
+enum class Sees { sky, face, either };
+
+/// Judges directions by trying every face. Margins are bounds of rounding, not rates:
+/// - Faces beyond the fan, by Moeller and Trumbore's determinants U, V, W ("Fast, minimum storage ray/triangle
+///   intersection", 1997). In float, differences of coordinates carry one rounding, a cross product three, a scalar
+///   product three, and the direction itself four (PointTracer's sum of three products of rounded axes): eleven half
+///   ulps of |c||e|, and sums of absolute values reach sqrt(3) times the product of lengths. kMargin = 20 half ulps.
+/// - Faces of the fan, by the signs of d against unit normals that are rounded once: one rounding, the scalar product's
+///   three and the direction's four, times sqrt(3): 14 half ulps, and the same kMargin is used.
+/// Faces whose plane is as near as one ulp of the coordinate scale are in contact with the point: rounding of its
+/// coordinates and of theirs decides on which side it lies, so they do not count.
+class VisibilityJudge {
+ public:
+  /// `far` in work units: faces farther away do not count.
+  explicit VisibilityJudge(const LightingPoints& points, double far = std::numeric_limits<double>::infinity());
+
+  /// Faces that do not touch the position.
+  Sees beyondFan(std::uint32_t point, const Vec3d& direction) const;
+  /// Faces that touch it: the one-sided rule of fan_test.h, each arc intersected for itself. Nothing blocks where no
+  /// arc rises above the tangent plane.
+  Sees throughFan(std::uint32_t point, const Vec3d& direction) const;
+  Sees look(std::uint32_t point, const Vec3d& direction) const;
+
+  /// The greatest n.d over the arcs of the fan, at least 0.
+  double fanHeight(std::uint32_t point) const;
+  /// The start of the one-sided rule; false where no own face has an extent.
+  bool startAbove(std::uint32_t point, Vec3d& start) const;
+
+  static constexpr double kMargin = 20 * 0x1p-24;
+
+ private:
+  struct Arc {
+    Vec3d a, b;  // unit
+  };
+  Sees hits(const Triangle& face, const Vec3d& origin, const Vec3d& direction) const;
+  std::vector<Arc> arcs(std::uint32_t point) const;
+
+  const LightingPoints& points_;
+  double contact_ = 0, far_;
+};
+
+}  // namespace shbake::testing
