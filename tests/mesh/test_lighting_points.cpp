@@ -127,9 +127,10 @@ void checkRecord(const Mesh& mesh, const LightingPoints& points) {
 std::vector<Mesh> variety() {
   std::vector<Mesh> all = shapes::defects();
   for (const Mesh& solid : shapes::convexSolids()) all.push_back(solid);
-  for (const Mesh& mesh : {shapes::cubeSplit(), shapes::boxRoom(4), shapes::openCavity(2, 0.08, 25),
-                           shapes::city(2, 2, 3), shapes::columns(1, 12), shapes::tiltedBoxesOnGround(),
-                           shapes::tJunctionFloor(), shapes::bowl(0.5, 6, 12, true), shapes::chessPiece(1)}) {
+  for (const Mesh& mesh :
+       {shapes::cubeSplit(), shapes::merged(shapes::cube(), shapes::cube()), shapes::boxRoom(4),
+        shapes::openCavity(2, 0.08, 25), shapes::city(2, 2, 3), shapes::columns(1, 12), shapes::tiltedBoxesOnGround(),
+        shapes::tJunctionFloor(), shapes::bowl(0.5, 6, 12, true), shapes::chessPiece(1)}) {
     all.push_back(mesh);
   }
   return all;

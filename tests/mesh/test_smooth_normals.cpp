@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/hash.h"
 #include "mesh/smooth_normals.h"
 #include "mesh/weld.h"
 #include "support/shapes.h"
@@ -171,9 +172,15 @@ TEST_CASE("corners of degenerate faces have no smooth normal", "[smooth_normals]
 }
 
 TEST_CASE("a face's normal has the same bits whichever corner comes first", "[smooth_normals]") {
-  const std::vector<Vec3f> positions = {{0.1f, 0.7f, -0.3f}, {0.9f, -0.2f, 0.4f}, {-0.5f, 0.3f, 0.8f}};
-  CHECK(faceNormal(positions, {0, 1, 2}) == faceNormal(positions, {1, 2, 0}));
-  CHECK(faceNormal(positions, {0, 1, 2}) == faceNormal(positions, {2, 0, 1}));
-  CHECK(faceNormal(positions, {0, 2, 1}) == -faceNormal(positions, {0, 1, 2}));
+  std::vector<Vec3f> positions;
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    positions.push_back(Vec3f(Vec3d(hashUnit(1, i), hashUnit(2, i), hashUnit(3, i))));
+  }
+  for (std::uint32_t i = 0; i + 2 < 60; ++i) {
+    const Vec3d normal = faceNormal(positions, {i, i + 1, i + 2});
+    CHECK(faceNormal(positions, {i + 1, i + 2, i}) == normal);
+    CHECK(faceNormal(positions, {i + 2, i, i + 1}) == normal);
+    CHECK(faceNormal(positions, {i, i + 2, i + 1}) == -normal);
+  }
   CHECK(faceNormal(positions, {0, 0, 1}) == Vec3d());
 }

@@ -40,6 +40,18 @@ TEST_CASE("a difference of one unit in the last place is not welded, one of zero
   CHECK(weld.ofVertex[2] != weld.ofVertex[4]);
 }
 
+TEST_CASE("positions inside one cell of the curve are told apart whatever their order", "[weld]") {
+  // Around the centre floats are finer than the curve's cells of 2^-20.
+  Mesh mesh = shapes::grid({-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
+  for (std::uint32_t i = 0; i < 64; ++i) {
+    mesh.positions.push_back({(i * 37 % 16) * 0x1p-25, 0, 0});
+    mesh.triangles.push_back({0, 1, 4 + i});
+  }
+  const Weld weld = weldOf(mesh);
+  CHECK(weld.positions.size() == 4 + 16);
+  CHECK(weldOf(shapes::shuffled(mesh, 4).mesh).positions == weld.positions);
+}
+
 TEST_CASE("a vertex that no face uses has no position", "[weld]") {
   const Weld weld = weldOf(shapes::isolatedVertices());
   CHECK(weld.positions.size() == 3);
