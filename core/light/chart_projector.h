@@ -1,0 +1,54 @@
+// Cube maps and angular maps: squares of pixels on which direction is a smooth function of place.
+#pragma once
+
+#include "light/map_projector.h"
+#include "light/quadrature_size.h"
+#include "sh/quadrature.h"
+
+namespace shbake {
+
+/// The map is cut into tiles of up to 64 x 64 pixels. On a tile, y_lm times the solid angle per area is interpolated
+/// from a few nodes, and the integrals of the interpolating polynomials over each pixel are tabulated: a pixel costs a
+/// dozen multiplications a channel, and y_lm is evaluated at the nodes alone. The rim of an angular map is cut exactly.
+class ChartProjector : public MapProjector {
+ public:
+  /// Throws an Error without a file name when the shape does not fit the layout: cubeFaces(), or an angular map that is
+  /// not square or has less than 4 pixels across.
+  ChartProjector(const MapShape& shape, int order);
+
+  std::vector<RowStrip> strips() const override;
+  void project(const RowStrip& strip, std::span<const Rgb> pixels, std::span<Vec3d> sum) const override;
+
+ private:
+  /// The interpolating polynomials of a row of `width` cells that fill [-1, 1].
+  struct TileTable {
+    std::vector<double> nodes;
+    std::vector<double> integrals;  ///< [cell * nodes.size() + node]
+  };
+  /// A rectangle of pixels of one chart.
+  struct Tile {
+    int x0, x1, y0, y1;
+  };
+  struct Area;
+  struct View;
+  struct Scratch;
+
+  static TileTable makeTable(const Growth& growth, double halfLength, int width);
+  static TileTable makeCellTable(const Growth& growth, double halfLength);
+  double edge(int i) const;
+  Area areaOf(const Tile& tile) const;
+  std::vector<int> cuts() const;
+  void addTile(const View& view, const Tile& tile, Scratch& scratch) const;
+  void addClipped(const View& view, const Tile& tile, Scratch& scratch) const;
+  void addRimPixel(const View& view, const Tile& tile, Scratch& scratch) const;
+  void addPoint(const CubeFace& chart, double s, double t, const Vec3d& weight, Scratch& scratch) const;
+
+  MapShape shape_;
+  int order_;
+  int size_;                       ///< pixels across a chart
+  std::vector<CubeFace> charts_;   ///< six faces, or the one square of an angular map
+  std::vector<TileTable> tables_;  ///< of tiles 1, 2, ... pixels wide
+  sh::IntervalRule rimRule_;       ///< for pixels that the rim of an angular map cuts
+};
+
+}  // namespace shbake
