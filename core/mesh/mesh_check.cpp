@@ -199,18 +199,23 @@ void Checker::checkParts(const EdgeGroups& edges, DisjointSets& parts) {
     if (sides.size() % 2 != 0) flag |= kOpen;
     if (turns != 0) flag |= kTurned;
   });
-  std::vector<double> volumes(faces_.size(), 0.0);
+  struct Volume {
+    double sum = 0, magnitude = 0;  // six times the volume, and the sum of what its terms could be
+  };
+  std::vector<Volume> volumes(faces_.size());
   for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-    // About the part's first corner, so that a place far from the origin costs no digits.
     const std::uint32_t part = parts.find(f);
-    volumes[part] += dot(position(3 * f) - position(3 * part), areaVector(f));
+    const Vec3d fromPart = position(3 * f) - position(3 * part), area = areaVector(f);
+    volumes[part].sum += dot(fromPart, area);
+    volumes[part].magnitude += length(fromPart) * length(area);
   }
+  constexpr double kNoVolume = 1e-12;  // of the magnitude: a sheet folded onto itself has only rounding for a volume
   for (std::uint32_t f = 0; f < faces_.size(); ++f) {
     if (parts.find(f) != f || repeatsPoint(faces_[f])) continue;
     ++check_.parts;
     if (flags[f] & kOpen) continue;
     ++check_.closedParts;
-    check_.insideOutParts += !(flags[f] & kTurned) && volumes[f] < 0;
+    check_.insideOutParts += !(flags[f] & kTurned) && volumes[f].sum < -kNoVolume * volumes[f].magnitude;
   }
 }
 

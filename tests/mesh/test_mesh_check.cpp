@@ -178,6 +178,20 @@ TEST_CASE("closed parts of negative volume are inside out, wherever they lie") {
   }
 }
 
+TEST_CASE("a flat body has no inside to be out, however it is turned") {
+  // Two squares on the same corners, cut along different diagonals: turned, they enclose rounding errors of either
+  // sign.
+  Mesh square;
+  square.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  square.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 0, 3}, {1, 3, 2}};
+  for (int i = 0; i < 40; ++i) {
+    const Mesh turned = shapes::rotated(square, shapes::rotationAbout({1, 2.0 + i, -3}, 0.1 + i));
+    const MeshCheck c = checkMesh(shapes::translated(turned, {10, -20, 30}));
+    CHECK(c.closed());
+    CHECK(c.insideOutParts == 0);
+  }
+}
+
 TEST_CASE("normals: missing, of other lengths, against the winding") {
   Mesh m;
   m.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
