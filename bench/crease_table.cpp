@@ -16,7 +16,6 @@
 #include "mesh/face_fans.h"
 #include "mesh/lighting_points.h"
 #include "mesh/mesh_reader.h"
-#include "mesh/smooth_normals.h"
 
 using namespace shbake;
 
@@ -59,7 +58,7 @@ std::vector<Bend> bendsOf(const Mesh& mesh) {
     if (points.turned[f]) std::swap(faces[f][1], faces[f][2]);
   }
   const std::vector<std::uint32_t> opposite =
-      oppositeHalfEdges(faces, cornersAtPositions(faces, points.positions.size()));
+      oppositeHalfEdges(points.positions, faces, cornersAtPositions(faces, points.positions.size()));
   std::vector<Bend> bends;
   for (std::uint32_t h = 0; h < opposite.size(); ++h) {
     if (opposite[h] == kNoCorner || opposite[h] < h) continue;

@@ -1,12 +1,12 @@
-// Faces that meet at a position, clustered into fans. Cutting a surface where it is not manifold follows Gueziec,
-// Taubin, Lazarus, Horn, "Cutting and stitching: converting sets of polygons to manifold surfaces", IEEE TVCG 7 (2001),
-// section 4: edges that are no pair of half-edges are cut, and what still hangs together at a position makes one
-// vertex.
+// Faces that meet at a position, clustered into fans. Cutting a surface where it is not manifold follows the idea of
+// Gueziec, Taubin, Lazarus, Horn, "Cutting and stitching: converting sets of polygons to manifold surfaces", IEEE TVCG
+// 7 (2001): singular edges are cut, and what still hangs together at a position makes one vertex.
 #include "mesh/face_fans.h"
 
 #include <algorithm>
 #include <span>
 #include <tuple>
+#include <utility>
 
 namespace shbake {
 namespace {
@@ -33,6 +33,59 @@ void collectSpokes(const std::vector<Triangle>& faces, std::span<const std::uint
   });
 }
 
+// Edges of more faces than this are cut altogether, which bounds the time that one edge can take.
+constexpr std::size_t kMostFacesAtEdge = 16;
+
+class EdgePairing {
+ public:
+  EdgePairing(const std::vector<Vec3f>& positions, const std::vector<Triangle>& faces)
+      : opposite_(3 * faces.size(), kNoCorner), positions_(positions), faces_(faces) {}
+
+  void addEdge(std::span<const Spoke> edge) {
+    if (edge.size() == 2 && edge[0].outgoing != edge[1].outgoing) pair(edge[0], edge[1]);
+    if (edge.size() > 2 && edge.size() <= kMostFacesAtEdge) pairSmoothest(edge);
+  }
+
+  std::vector<std::uint32_t> result() { return std::move(opposite_); }
+
+ private:
+  void pair(const Spoke& a, const Spoke& b) {
+    opposite_[a.halfEdge] = b.halfEdge;
+    opposite_[b.halfEdge] = a.halfEdge;
+  }
+
+  // Both sides of a doubled sheet go on smoothly this way, as does a floor on whose edge a wall stands.
+  void pairSmoothest(std::span<const Spoke> edge) {
+    normals_.clear();
+    for (const Spoke& s : edge) normals_.push_back(faceNormal(positions_, faces_[s.halfEdge / 3]));
+    for (std::size_t i = 0; i < edge.size(); ++i) {
+      if (!edge[i].outgoing) continue;
+      const std::size_t j = smoothest(edge, i);
+      if (j < edge.size() && smoothest(edge, j) == i) pair(edge[i], edge[j]);
+    }
+  }
+
+  // The half-edge in the other direction whose face bends least against that of edge[i]; edge.size() when there is none
+  // or several bend alike.
+  std::size_t smoothest(std::span<const Spoke> edge, std::size_t i) const {
+    std::size_t best = edge.size();
+    double cosine = -2;
+    for (std::size_t j = 0; j < edge.size(); ++j) {
+      if (edge[j].outgoing == edge[i].outgoing) continue;
+      const double c = dot(normals_[i], normals_[j]);
+      if (c == cosine) best = edge.size();
+      if (c > cosine) best = j;
+      cosine = std::max(cosine, c);
+    }
+    return best;
+  }
+
+  std::vector<std::uint32_t> opposite_;
+  const std::vector<Vec3f>& positions_;
+  const std::vector<Triangle>& faces_;
+  std::vector<Vec3d> normals_;
+};
+
 }  // namespace
 
 PackedLists cornersAtPositions(const std::vector<Triangle>& faces, std::size_t positions) {
@@ -50,20 +103,24 @@ PackedLists cornersAtPositions(const std::vector<Triangle>& faces, std::size_t p
   return lists;
 }
 
-std::vector<std::uint32_t> oppositeHalfEdges(const std::vector<Triangle>& faces, const PackedLists& corners) {
-  std::vector<std::uint32_t> opposite(3 * faces.size(), kNoCorner);
+Vec3d faceNormal(const std::vector<Vec3f>& positions, const Triangle& face) {
+  const auto first = static_cast<std::size_t>(std::min_element(face.begin(), face.end()) - face.begin());
+  const Vec3d a(positions[face[first]]), b(positions[face[(first + 1) % 3]]), c(positions[face[(first + 2) % 3]]);
+  return normalized(cross(b - a, c - a));
+}
+
+std::vector<std::uint32_t> oppositeHalfEdges(const std::vector<Vec3f>& positions, const std::vector<Triangle>& faces,
+                                             const PackedLists& corners) {
+  EdgePairing pairing(positions, faces);
   std::vector<Spoke> spokes;
   for (std::uint32_t p = 0; p < corners.size(); ++p) {
     collectSpokes(faces, corners[p], p, spokes);
     for (std::size_t begin = 0, end = 0; begin < spokes.size(); begin = end) {
       while (end < spokes.size() && spokes[end].otherEnd == spokes[begin].otherEnd) ++end;
-      const Spoke &first = spokes[begin], &last = spokes[end - 1];
-      if (end - begin != 2 || first.outgoing == last.outgoing) continue;
-      opposite[first.halfEdge] = last.halfEdge;
-      opposite[last.halfEdge] = first.halfEdge;
+      pairing.addEdge({spokes.data() + begin, end - begin});
     }
   }
-  return opposite;
+  return pairing.result();
 }
 
 FaceFans faceFans(const std::vector<Triangle>& faces, const std::vector<std::uint32_t>& opposite) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/vec3.h"
 #include "mesh/mesh.h"
 #include "mesh/packed_lists.h"
 
@@ -31,9 +32,15 @@ constexpr bool isDegenerate(const Triangle& face) {
 /// The corners at each position (of degenerate faces too) in ascending order. Requires position ids < `positions`.
 PackedLists cornersAtPositions(const std::vector<Triangle>& faces, std::size_t positions);
 
-/// The half-edge on the other side of each half-edge; kNoCorner at a boundary, at an edge of more than two faces,
-/// between two faces wound against each other, and in degenerate faces.
-std::vector<std::uint32_t> oppositeHalfEdges(const std::vector<Triangle>& faces, const PackedLists& corners);
+/// The unit normal of a face; zero when it has no extent. The same bits whichever corner the face begins with.
+Vec3d faceNormal(const std::vector<Vec3f>& positions, const Triangle& face);
+
+/// The half-edge on the other side of each half-edge; kNoCorner at a boundary, between faces wound against each other,
+/// and in degenerate faces. Where more than two faces share an edge, a surface goes on from one face to another that is
+/// wound alike when each is the other's smoothest continuation, without a tie; the rest is cut. `positions` are in work
+/// units.
+std::vector<std::uint32_t> oppositeHalfEdges(const std::vector<Vec3f>& positions, const std::vector<Triangle>& faces,
+                                             const PackedLists& corners);
 
 inline constexpr std::uint32_t kNoCorner = 0xFFFFFFFFu;
 

@@ -173,15 +173,10 @@ void addSectors(const std::vector<RingCorner>& ring, SmoothNormals& result) {
 
 }  // namespace
 
-Vec3d faceNormal(const std::vector<Vec3f>& positions, const Triangle& face) {
-  const auto first = static_cast<std::size_t>(std::min_element(face.begin(), face.end()) - face.begin());
-  const Vec3d a(positions[face[first]]), b(positions[face[(first + 1) % 3]]), c(positions[face[(first + 2) % 3]]);
-  return normalized(cross(b - a, c - a));
-}
-
 SmoothNormals smoothNormals(const std::vector<Vec3f>& positions, const std::vector<Triangle>& faces,
                             double creaseRadians) {
-  std::vector<std::uint32_t> opposite = oppositeHalfEdges(faces, cornersAtPositions(faces, positions.size()));
+  std::vector<std::uint32_t> opposite =
+      oppositeHalfEdges(positions, faces, cornersAtPositions(faces, positions.size()));
   FaceFans fans = faceFans(faces, opposite);
   const HalfEdges halfEdges(faces, std::move(opposite), fans);
   const TriConnectivity& mesh = halfEdges.mesh();

@@ -29,7 +29,4 @@ struct SmoothNormals {
 SmoothNormals smoothNormals(const std::vector<Vec3f>& positions, const std::vector<Triangle>& faces,
                             double creaseRadians);
 
-/// The unit normal of a face; zero when it has no extent. The same bits whichever corner the face begins with.
-Vec3d faceNormal(const std::vector<Vec3f>& positions, const Triangle& face);
-
 }  // namespace shbake

@@ -111,6 +111,20 @@ TEST_CASE("the two sides of a doubled sheet stay apart", "[lighting_points]") {
   }
 }
 
+TEST_CASE("the two sides of a doubled curved sheet are as smooth as one", "[lighting_points]") {
+  const Mesh bowl = shapes::bowl(0.5, 8, 16);
+  const LightingPoints one = pointsOf(bowl), two = pointsOf(shapes::merged(bowl, shapes::flipped(bowl)));
+  REQUIRE(one.size() == bowl.positions.size());
+  REQUIRE(two.size() == 2 * one.size());
+  for (std::size_t q = 0; q < one.size(); ++q) {
+    const Vec3f a = two.pointNormal[2 * q], b = two.pointNormal[2 * q + 1];
+    // The other side is summed the other way round, which may round the last place differently.
+    const double miss = std::min(length(Vec3d(a - one.pointNormal[q])), length(Vec3d(b - one.pointNormal[q])));
+    CHECK(length(Vec3d(a + b)) <= std::sqrt(3.0) * 0x1p-24);
+    CHECK(miss <= std::sqrt(3.0) * 0x1p-24);
+  }
+}
+
 TEST_CASE("a Moebius strip has a point for each vertex and two where its winding breaks", "[lighting_points]") {
   const LightingPoints points = pointsOf(shapes::moebiusStrip(96));
   CHECK(points.positions.size() == 192);

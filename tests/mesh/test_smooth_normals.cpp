@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/hash.h"
+#include "mesh/face_fans.h"
 #include "mesh/smooth_normals.h"
 #include "mesh/weld.h"
 #include "support/shapes.h"
