@@ -26,12 +26,12 @@ Growth growthOf(MapLayout layout, int order) {
   return {[order](double y) { return (order - 1) * std::atanh(y) - 1.5 * std::log1p(-y * y); }, 1};
 }
 
-/// The width in pixels of tiles that make the work a pixel least: 3 multiplications a node of a row, and y_lm with its
-/// sums once a node of the tile, which counts as 50 + 3 order^2.
+/// The width in pixels, a power of two, of tiles that make the work a pixel least: 3 multiplications a node of a row,
+/// and y_lm with its sums once a node of the tile, which counts as 50 + 3 order^2.
 int bestTileWidth(const Growth& growth, double cell, int size, int order) {
   int best = 1;
   double least = HUGE_VAL;
-  for (int width = 1; width <= std::min(kMaxTile, size); ++width) {
+  for (int width = 1; width <= std::min(kMaxTile, size); width *= 2) {
     const int n = width == 1 ? gaussNodes(growth, cell) : interpolationNodes(growth, width * cell);
     const double nodesPerPixel = static_cast<double>(n) / width;
     const double cost = 3.0 * n + nodesPerPixel * nodesPerPixel * (50 + 3.0 * order * order);
@@ -111,15 +111,26 @@ ChartProjector::ChartProjector(const MapShape& shape, int order) : shape_(shape)
 
   const Growth growth = growthOf(shape.layout, order);
   const double cell = 1.0 / (shape_.border ? size_ - 1 : size_);  // half the width of a pixel
-  tables_.push_back(makeCellTable(growth, cell));
   const int widest = bestTileWidth(growth, cell, size_, order);
-  for (int width = 2; width <= widest; ++width) tables_.push_back(makeTable(growth, width * cell, width));
+  tables_.resize(widest);
+  tables_[0] = makeCellTable(growth, cell);
+  const std::vector<int> cut = cuts();
+  for (std::size_t i = 0; i + 1 < cut.size(); ++i) addTables(growth, cell, cut[i + 1] - cut[i]);
   // Along the rim the ends of the inner integral move with the outer variable, at most as fast as it does, and are
   // smooth up to a distance of a quarter.
   if (angular) {
     const Growth rim{[&](double y) { return 2 * growth.exponent(y); }, 0.25};
     rimRule_ = sh::gaussLegendre(gaussNodes(rim, cell));
   }
+}
+
+/// The table for tiles `width` pixels wide, and where tiles are divided at the rim, for their parts.
+void ChartProjector::addTables(const Growth& growth, double cell, int width) {
+  if (!tables_[width - 1].nodes.empty()) return;
+  tables_[width - 1] = makeTable(growth, width * cell, width);
+  if (shape_.layout != MapLayout::angular) return;
+  addTables(growth, cell, width / 2);
+  addTables(growth, cell, width - width / 2);
 }
 
 ChartProjector::TileTable ChartProjector::makeCellTable(const Growth& growth, double halfLength) {

@@ -33,6 +33,7 @@ class ChartProjector : public MapProjector {
   struct View;
   struct Scratch;
 
+  void addTables(const Growth& growth, double cell, int width);
   static TileTable makeTable(const Growth& growth, double halfLength, int width);
   static TileTable makeCellTable(const Growth& growth, double halfLength);
   double edge(int i) const;
@@ -47,7 +48,7 @@ class ChartProjector : public MapProjector {
   int order_;
   int size_;                       ///< pixels across a chart
   std::vector<CubeFace> charts_;   ///< six faces, or the one square of an angular map
-  std::vector<TileTable> tables_;  ///< of tiles 1, 2, ... pixels wide
+  std::vector<TileTable> tables_;  ///< of tiles 1, 2, ... pixels wide, empty where no tile is
   sh::IntervalRule rimRule_;       ///< for pixels that the rim of an angular map cuts
 };
 

@@ -104,7 +104,7 @@ void projectChunk(const MapProjector& projector, std::span<const RowStrip> strip
 
 sh::Matrix3d axesFor(UpAxis up) {
   if (up == UpAxis::z) return {};
-  return {{{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}}};  // x -> z, y -> x, z -> y
+  return {{{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}}};  // y -> -z, z -> y
 }
 
 EnvironmentMapLight projectEnvironmentMap(const std::string& path, int order, const EnvironmentMapOptions& options,

@@ -16,7 +16,8 @@ namespace shbake {
 /// Which axis points up.
 enum class UpAxis {
   z,  ///< forward = +x, right = -y, up = +z: lat-long maps have u = 1/2 - atan2(y, x) / 2pi (Blender)
-  y,  ///< forward = +z, right = -x, up = +y: the axes of OpenEXR's environment maps
+  y,  ///< forward = +x, right = +z, up = +y: the same scene turned by -90 degrees about x, as glTF exporters do
+      ///< (three.js); sh::toYUp()
 };
 
 struct EnvironmentMapOptions {

@@ -13,7 +13,7 @@ namespace {
 /// 2 and (r - 1/r) / 2 half lengths.
 double errorBound(const Growth& growth, double halfLength, int n) {
   double least = HUGE_VAL;
-  for (double r = 1.05; r < 1e9; r *= 1.1) {
+  for (double r = 1.1; r < 1e9; r *= 1.25) {
     const double height = halfLength * (r - 1 / r) / 2;
     if (height >= growth.reach) break;
     least = std::min(least, 4 * std::exp(growth.exponent(height) - n * std::log(r)) / (1 - 1 / r));
