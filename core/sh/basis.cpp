@@ -89,6 +89,47 @@ void recurrence(int order, const Vec3d& d, Out* out) {
 }
 
 // maths.md (2) written out. The literals are exact to the last bit of a double.
+
+/// Degrees 4 and 5, with (x + iy)^3 = c3 + i s3 known.
+template <class T>
+void upperPolynomials(int order, const Vec3<T>& d, T c3, T s3, T* out) {
+  const T x = d.x, y = d.y, z = d.z, zz = z * z, c2 = x * x - y * y, s2 = T(2) * x * y;
+  const T c4 = x * c3 - y * s3, s4 = x * s3 + y * c3;
+  const T q41 = z * (T(4.683325804901024) * zz - T(2.0071396306718676));
+  const T q42 = T(3.3116114351514603) * zz - T(0.47308734787878);
+  const T q43 = T(1.7701307697799304) * z;
+  constexpr T q44 = T(0.6258357354491761);
+  out[16] = q44 * s4;
+  out[17] = q43 * s3;
+  out[18] = q42 * s2;
+  out[19] = q41 * y;
+  out[20] = zz * (T(3.7024941420321507) * zz - T(3.173566407456129)) + T(0.31735664074561293);
+  out[21] = q41 * x;
+  out[22] = q42 * c2;
+  out[23] = q43 * c3;
+  out[24] = q44 * c4;
+  if (order == 5) return;
+
+  const T c5 = x * c4 - y * s4, s5 = x * s4 + y * c4;
+  const T q51 = zz * (T(9.511879675109636) * zz - T(6.341253116739757)) + T(0.45294665119569694);
+  const T q52 = z * (T(7.190305177459986) * zz - T(2.396768392486662));
+  const T q53 = T(4.403144694917254) * zz - T(0.4892382994352504);
+  const T q54 = T(2.075662314881041) * z;
+  constexpr T q55 = T(0.6563820568401701);
+  out[25] = q55 * s5;
+  out[26] = q54 * s4;
+  out[27] = q53 * s3;
+  out[28] = q52 * s2;
+  out[29] = q51 * y;
+  out[30] = z * (zz * (T(7.367870314565686) * zz - T(8.186522571739651)) + T(1.754254836801354));
+  out[31] = q51 * x;
+  out[32] = q52 * c2;
+  out[33] = q53 * c3;
+  out[34] = q54 * c4;
+  out[35] = q55 * c5;
+}
+
+/// Degrees 0 to 5.
 template <class T>
 void polynomials(int order, const Vec3<T>& d, T* out) {
   const T x = d.x, y = d.y, z = d.z;
@@ -124,39 +165,7 @@ void polynomials(int order, const Vec3<T>& d, T* out) {
   out[15] = q33 * c3;
   if (order == 4) return;
 
-  const T c4 = x * c3 - y * s3, s4 = x * s3 + y * c3;
-  const T q41 = z * (T(4.683325804901024) * zz - T(2.0071396306718676));
-  const T q42 = T(3.3116114351514603) * zz - T(0.47308734787878);
-  const T q43 = T(1.7701307697799304) * z;
-  constexpr T q44 = T(0.6258357354491761);
-  out[16] = q44 * s4;
-  out[17] = q43 * s3;
-  out[18] = q42 * s2;
-  out[19] = q41 * y;
-  out[20] = zz * (T(3.7024941420321507) * zz - T(3.173566407456129)) + T(0.31735664074561293);
-  out[21] = q41 * x;
-  out[22] = q42 * c2;
-  out[23] = q43 * c3;
-  out[24] = q44 * c4;
-  if (order == 5) return;
-
-  const T c5 = x * c4 - y * s4, s5 = x * s4 + y * c4;
-  const T q51 = zz * (T(9.511879675109636) * zz - T(6.341253116739757)) + T(0.45294665119569694);
-  const T q52 = z * (T(7.190305177459986) * zz - T(2.396768392486662));
-  const T q53 = T(4.403144694917254) * zz - T(0.4892382994352504);
-  const T q54 = T(2.075662314881041) * z;
-  constexpr T q55 = T(0.6563820568401701);
-  out[25] = q55 * s5;
-  out[26] = q54 * s4;
-  out[27] = q53 * s3;
-  out[28] = q52 * s2;
-  out[29] = q51 * y;
-  out[30] = z * (zz * (T(7.367870314565686) * zz - T(8.186522571739651)) + T(1.754254836801354));
-  out[31] = q51 * x;
-  out[32] = q52 * c2;
-  out[33] = q53 * c3;
-  out[34] = q54 * c4;
-  out[35] = q55 * c5;
+  upperPolynomials(order, d, c3, s3, out);
 }
 
 template <class T>
