@@ -35,7 +35,7 @@ TEST_CASE("mixBits is the finaliser of SplitMix64") {
   CHECK(mixBits(3 * 0x9E3779B97F4A7C15ull) == 0x06C45D188009454Full);
 }
 
-TEST_CASE("values lie in [0, 1) and the extremes of the bits reach its ends") {
+TEST_CASE("values lie between 0 and 1, and the greatest is below 1") {
   for (std::uint64_t i = 0; i < 100000; ++i) {
     const double u = hashUnit(7, i);
     REQUIRE((u >= 0.0 && u < 1.0));

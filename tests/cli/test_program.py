@@ -315,7 +315,7 @@ class Reports(ProgramTest):
         mesh = self.folder / "bowl.obj"
         meshes.write_obj(mesh, *meshes.bowl(40, 60))
         ours, theirs = pty.openpty()
-        process = self.start("bake", mesh, "-o", self.out, "--rays", "16384", stderr=theirs)
+        process = self.start("bake", mesh, "-o", self.out, "--rays", "8192", "--threads", "1", stderr=theirs)
         os.close(theirs)
         text = b""
         try:
