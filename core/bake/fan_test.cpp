@@ -15,6 +15,19 @@ constexpr float kFlat = 1e-6f;
 
 }  // namespace
 
+bool FanTest::risesAboveTangentPlane(std::uint32_t p) const {
+  const std::uint32_t position = points_.pointPosition[p];
+  const Vec3f origin = points_.positions[position], normal = points_.pointNormal[p];
+  for (const std::uint32_t f : points_.positionFaces[position]) {
+    for (const std::uint32_t corner : points_.faces[f]) {
+      const Vec3f edge = points_.positions[corner] - origin;
+      const float height = dot(edge, normal);
+      if (height > 0 && height * height > kFlat * kFlat * dot(edge, edge)) return true;
+    }
+  }
+  return false;
+}
+
 int FanTest::edgeTo(std::uint32_t position, const Vec3f& origin) {
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     if (edges_[i].position == position) return static_cast<int>(i);
@@ -45,26 +58,25 @@ void FanTest::addArcs(std::uint32_t p) {
 }
 
 bool FanTest::chooseStart(std::uint32_t p, const Vec3d& normal, Vec3d& start) const {
-  double widest = -1;
+  double least = 2;  // cosine of the widest sector so far
   for (const Arc& arc : arcs_) {
     const Triangle& own = points_.facePoints[arc.face];
     const bool isOwn = own[0] == p || own[1] == p || own[2] == p;
     const Vec3d a = edges_[static_cast<std::size_t>(arc.from)].direction;
     const Vec3d b = edges_[static_cast<std::size_t>(arc.to)].direction;
     const Vec3d n = normalized(cross(a, b));
-    const double sector = isOwn ? angleBetween(a, b) : -1;
-    if (sector <= widest || n == Vec3d{}) continue;
-    widest = sector;
+    if (!isOwn || dot(a, b) >= least || n == Vec3d{}) continue;
+    least = dot(a, b);
     start = normalized(normalized(a + b) + n * (dot(n, normal) < 0 ? -kStartHeight : kStartHeight));
   }
-  return widest > 0;
+  return least < 2;
 }
 
 void FanTest::orient(const Vec3d& start) {
-  for (Edge& e : edges_) e.plane = Vec3f(normalized(cross(start, e.direction)));
+  for (Edge& e : edges_) e.plane = Vec3f(cross(start, e.direction));
   for (Arc& arc : arcs_) {
     const auto direction = [&](int e) { return edges_[static_cast<std::size_t>(e)].direction; };
-    Vec3d plane = normalized(cross(direction(arc.from), direction(arc.to)));
+    Vec3d plane = cross(direction(arc.from), direction(arc.to));
     arc.front = dot(plane, start) > 0;  // faces are wound so that from, to turn about their front normal
     if (!arc.front) {
       std::swap(arc.from, arc.to);
@@ -97,9 +109,10 @@ float FanTest::highestPoint(const Vec3d& start, const Vec3d& normal) const {
 }
 
 void FanTest::setPoint(std::uint32_t p) {
-  addArcs(p);
   height_ = 0;
   zenithBlocked_ = false;
+  if (!risesAboveTangentPlane(p)) return;
+  addArcs(p);
   const Vec3d normal(points_.pointNormal[p]);
   Vec3d start;
   if (!chooseStart(p, normal, start)) return;

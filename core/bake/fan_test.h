@@ -19,7 +19,7 @@ class FanTest {
  public:
   explicit FanTest(const LightingPoints& points) : points_(points) {}
 
-  /// Takes up point `p`. Cost: a few dozen operations a touching face.
+  /// Takes up point `p`. Cost: a few operations a touching face, a few dozen where one rises above the tangent plane.
   void setPoint(std::uint32_t p);
 
   /// No direction above the tangent plane that rises less than this can be blocked where it is 0; otherwise directions
@@ -39,16 +39,17 @@ class FanTest {
   struct Edge {
     std::uint32_t position;  // the neighbour that the edge leads to
     Vec3d direction;         // unit
-    Vec3f plane;             // normal of the plane through s and the edge
+    Vec3f plane;             // normal of the plane through s and the edge, any length
     int uses;                // arcs that end here
   };
   struct Arc {
     std::uint32_t face;
     int from, to;  // edges, ordered so that s lies on the positive side of from x to
-    Vec3f plane;   // normal of the face's plane, on the side of s
+    Vec3f plane;   // normal of the face's plane on the side of s, any length
     bool front;    // s is on the front of the face
   };
 
+  bool risesAboveTangentPlane(std::uint32_t p) const;
   int edgeTo(std::uint32_t position, const Vec3f& origin);
   void addArcs(std::uint32_t p);
   bool chooseStart(std::uint32_t p, const Vec3d& normal, Vec3d& start) const;

@@ -1,6 +1,7 @@
 #include "bake/point_tracer.h"
 
 #include <algorithm>
+#include <bit>
 #include <numbers>
 
 #include "base/hash.h"
@@ -101,7 +102,7 @@ void PointTracer::lookForHits(std::uint32_t point, std::span<std::uint16_t> sky,
       const auto i = static_cast<std::size_t>(g);
       const unsigned traced = twoSided_ ? blocked_[i] : front_[i];
       for (unsigned bits = traced | fanMask_[i]; bits != 0; bits &= bits - 1) {
-        const std::size_t k = i * kGroup + static_cast<unsigned>(__builtin_ctz(bits));
+        const std::size_t k = i * kGroup + static_cast<unsigned>(std::countr_zero(bits));
         const bool onFan = (fanMask_[i] >> (k % kGroup) & 1) != 0;
         if (onFan && !twoSided_ && !fan_.facesFront(fanFaces_[k])) continue;
         hits.push_back(onFan ? hitOnFan(fanFaces_[k], position) : chunkHits_[k]);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cfloat>
 #include <cmath>
 #include <limits>
@@ -22,6 +23,8 @@ namespace {
 /// A position lies on a face where it is this near to its plane, in units of the coordinate scale: rounding to float
 /// moves the position and the plane by sqrt(3)/4 ulp each, together 0.87 ulp.
 constexpr double kContactUlps = 1;
+/// Rays begin this far from their origin, which spares the filter most faces that touch it.
+constexpr float kNearUlps = 0.5f;
 /// Float hit distances are off by a few ulp of the coordinate scale; hits that seem farther from contact than this are.
 constexpr double kSuspectUlps = 16;
 
@@ -40,25 +43,23 @@ bool inContact(const FilterData& data, const Triangle& t, const Vec3f& origin) {
 }
 
 /// Rejects hits on faces that touch the ray's own position, whose id every ray carries: those that share it, and those
-/// that it lies on without sharing it.
+/// that it lies on without sharing it. Both kinds are met near their plane, which most hits are not: these pass without
+/// a look at the face.
 void leaveOutOwnFaces(const RTCFilterFunctionNArguments* args) {
   const auto& data = *static_cast<const FilterData*>(args->geometryUserPtr);
   const unsigned n = args->N;
   for (unsigned i = 0; i < n; ++i) {
     if (args->valid[i] != -1) continue;
-    const Triangle& t = data.faces[RTCHitN_primID(args->hit, n, i)];
-    const unsigned position = RTCRayN_id(args->ray, n, i);
-    if (t[0] == position || t[1] == position || t[2] == position) {
-      args->valid[i] = 0;
-      continue;
-    }
     const Vec3d normal(
         Vec3f(RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i), RTCHitN_Ng_z(args->hit, n, i)));
     const Vec3d direction(
         Vec3f(RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i), RTCRayN_dir_z(args->ray, n, i)));
     const double height = dot(normal, direction) * static_cast<double>(RTCRayN_tfar(args->ray, n, i));
     if (height * height > data.suspect * data.suspect * dot(normal, normal)) continue;
-    if (inContact(data, t, data.positions[position])) args->valid[i] = 0;
+    const Triangle& t = data.faces[RTCHitN_primID(args->hit, n, i)];
+    const unsigned position = RTCRayN_id(args->ray, n, i);
+    const bool shared = t[0] == position || t[1] == position || t[2] == position;
+    if (shared || inContact(data, t, data.positions[position])) args->valid[i] = 0;
   }
 }
 
@@ -80,7 +81,7 @@ struct RayScene::State {
   const LightingPoints* points = nullptr;
   std::vector<Vec3f> positions;  // with the padding that Embree reads past the end
   FilterData filter;
-  float far = 0;
+  float near = 0, far = 0;
   bool packets = false;  // 16-wide packets are native; the stream is faster elsewhere
   RTCError error = RTC_ERROR_NONE;
   std::string errorText;
@@ -93,9 +94,10 @@ struct RayScene::State {
 
 class RayScene::Buffers {
  public:
-  alignas(64) std::array<RTCRayHit, kMaxGroups * 16> stream;
+  alignas(64) std::array<RTCRay, kMaxGroups * 16> shadowStream;
+  alignas(64) std::array<RTCRayHit, kMaxGroups * 16> hitStream;
   alignas(64) RTCRayHit16 packet;
-  std::array<std::uint16_t, kMaxGroups * 16> slot;  // the ray behind each entry of the stream
+  std::array<std::uint16_t, kMaxGroups * 16> slot;  // the ray behind each entry of a stream
 };
 
 void RayScene::BuffersDeleter::operator()(Buffers* buffers) const {
@@ -112,6 +114,8 @@ RayScene::RayScene(const LightingPoints& points, float maxDistance, int threads,
   s.points = &points;
   float scale = 0;
   for (const Vec3f& p : points.positions) scale = std::max({scale, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  // What is hit nearer than this along the ray is nearer than contact in any case.
+  s.near = kNearUlps * FLT_EPSILON * scale;
   s.far = maxDistance;
   s.positions.reserve(points.positions.size() + 1);
   s.positions = points.positions;
@@ -160,11 +164,11 @@ namespace {
 
 /// Fills entry i of a packet or stream with what all rays of a point share.
 template <class Packet>
-void setCommon(Packet& r, unsigned i, const Vec3f& origin, std::uint32_t position) {
+void setCommon(Packet& r, unsigned i, const Vec3f& origin, float near, std::uint32_t position) {
   r.org_x[i] = origin.x;
   r.org_y[i] = origin.y;
   r.org_z[i] = origin.z;
-  r.tnear[i] = 0;
+  r.tnear[i] = near;
   r.time[i] = 0;
   r.mask[i] = ~0u;
   r.id[i] = position;
@@ -187,14 +191,23 @@ std::array<int, 16> laneFlags(std::uint16_t active) {
   return valid;
 }
 
-/// Appends the active rays to the stream; returns how many there are.
-template <class Slots>
-unsigned fillStream(RTCRayHit* stream, Slots& slots, const RayScene::Rays& rays, const Vec3f& origin, float far) {
+RTCRay& rayOf(RTCRay& entry) {
+  return entry;
+}
+RTCRay& rayOf(RTCRayHit& entry) {
+  return entry.ray;
+}
+
+/// Fills a stream with the active rays; returns how many there are.
+template <class Stream, class Slots>
+unsigned fillStream(Stream& stream, Slots& slots, const RayScene::Rays& rays, const Vec3f& origin, float near,
+                    float far) {
   unsigned n = 0;
   for (int g = 0; g < rays.groups; ++g) {
     for (unsigned bits = rays.active[g]; bits != 0; bits &= bits - 1) {
-      const auto k = static_cast<std::size_t>(g) * 16 + static_cast<unsigned>(__builtin_ctz(bits));
-      stream[n].ray = {origin.x, origin.y, origin.z, 0, rays.x[k], rays.y[k], rays.z[k], 0, far, ~0u, rays.position, 0};
+      const auto k = static_cast<std::size_t>(g) * 16 + static_cast<unsigned>(std::countr_zero(bits));
+      rayOf(stream[n]) = {origin.x,  origin.y, origin.z, near, rays.x[k],     rays.y[k],
+                          rays.z[k], 0,        far,      ~0u,  rays.position, 0};
       slots[n++] = static_cast<std::uint16_t>(k);
     }
   }
@@ -210,16 +223,16 @@ void RayScene::occluded(const Rays& rays, Buffers& buffers, std::uint16_t* hit) 
   rtcInitIntersectContext(&context);
   std::fill_n(hit, rays.groups, std::uint16_t(0));
   if (!s.packets) {
-    const unsigned n = fillStream(buffers.stream.data(), buffers.slot, rays, origin, s.far);
-    rtcOccluded1M(s.scene, &context, &buffers.stream[0].ray, n, sizeof(RTCRayHit));
+    const unsigned n = fillStream(buffers.shadowStream, buffers.slot, rays, origin, s.near, s.far);
+    rtcOccluded1M(s.scene, &context, buffers.shadowStream.data(), n, sizeof(RTCRay));
     for (unsigned i = 0; i < n; ++i) {
-      const bool blocked = buffers.stream[i].ray.tfar < 0;
+      const bool blocked = buffers.shadowStream[i].tfar < 0;
       hit[buffers.slot[i] / 16] |= static_cast<std::uint16_t>(blocked << (buffers.slot[i] % 16));
     }
     return;
   }
   RTCRay16& r = buffers.packet.ray;
-  for (unsigned i = 0; i < 16; ++i) setCommon(r, i, origin, rays.position);
+  for (unsigned i = 0; i < 16; ++i) setCommon(r, i, origin, s.near, rays.position);
   for (int g = 0; g < rays.groups; ++g) {
     if (rays.active[g] == 0) continue;
     setDirections(r, rays, g, s.far);
@@ -243,12 +256,12 @@ void RayScene::closest(const Rays& rays, Buffers& buffers, std::uint16_t* hit, s
     hits[k] = {face, quantise(u), quantise(v)};
   };
   if (!s.packets) {
-    const unsigned n = fillStream(buffers.stream.data(), buffers.slot, rays, origin, s.far);
-    for (unsigned i = 0; i < n; ++i) buffers.stream[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1M(s.scene, &context, buffers.stream.data(), n, sizeof(RTCRayHit));
+    const unsigned n = fillStream(buffers.hitStream, buffers.slot, rays, origin, s.near, s.far);
+    for (unsigned i = 0; i < n; ++i) buffers.hitStream[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1M(s.scene, &context, buffers.hitStream.data(), n, sizeof(RTCRayHit));
     for (unsigned i = 0; i < n; ++i) {
-      const RTCHit& h = buffers.stream[i].hit;
-      const RTCRay& r = buffers.stream[i].ray;
+      const RTCHit& h = buffers.hitStream[i].hit;
+      const RTCRay& r = buffers.hitStream[i].ray;
       if (h.geomID == RTC_INVALID_GEOMETRY_ID) continue;
       take(buffers.slot[i], h.primID, h.u, h.v, h.Ng_x * r.dir_x + h.Ng_y * r.dir_y + h.Ng_z * r.dir_z);
     }
@@ -256,7 +269,7 @@ void RayScene::closest(const Rays& rays, Buffers& buffers, std::uint16_t* hit, s
   }
   RTCRay16& r = buffers.packet.ray;
   RTCHit16& h = buffers.packet.hit;
-  for (unsigned i = 0; i < 16; ++i) setCommon(r, i, origin, rays.position);
+  for (unsigned i = 0; i < 16; ++i) setCommon(r, i, origin, s.near, rays.position);
   for (int g = 0; g < rays.groups; ++g) {
     if (rays.active[g] == 0) continue;
     setDirections(r, rays, g, s.far);
