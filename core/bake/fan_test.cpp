@@ -37,6 +37,12 @@ int FanTest::edgeTo(std::uint32_t position, const Vec3f& origin) {
   return static_cast<int>(edges_.size()) - 1;
 }
 
+bool FanTest::isOwn(std::uint32_t face, std::uint32_t p) const {
+  if (face == kNone) return false;
+  const Triangle& own = points_.facePoints[face];
+  return own[0] == p || own[1] == p || own[2] == p;
+}
+
 void FanTest::addArcs(std::uint32_t p) {
   edges_.clear();
   arcs_.clear();
@@ -46,12 +52,16 @@ void FanTest::addArcs(std::uint32_t p) {
     const Triangle& t = points_.faces[f];
     const std::size_t corner = t[0] == position ? 0 : t[1] == position ? 1 : 2;
     const int from = edgeTo(t[(corner + 1) % 3], origin), to = edgeTo(t[(corner + 2) % 3], origin);
-    // Coincident faces are one wall, not two that cancel.
-    const bool known = std::any_of(arcs_.begin(), arcs_.end(), [&](const Arc& a) {
+    // Coincident faces are one wall, not two that cancel. The point's own face stands for those wound like it.
+    const auto known = std::find_if(arcs_.begin(), arcs_.end(), [&](const Arc& a) {
       return (a.from == from && a.to == to) || (a.from == to && a.to == from);
     });
-    if (known) continue;
-    arcs_.push_back({f, from, to, {}, true});
+    if (known != arcs_.end()) {
+      std::uint32_t& side = known->from == from ? known->face : known->back;
+      if (side == kNone || isOwn(f, p)) side = f;
+      continue;
+    }
+    arcs_.push_back({f, kNone, from, to, {}, true});
     ++edges_[static_cast<std::size_t>(from)].uses;
     ++edges_[static_cast<std::size_t>(to)].uses;
   }
@@ -60,12 +70,10 @@ void FanTest::addArcs(std::uint32_t p) {
 bool FanTest::chooseStart(std::uint32_t p, const Vec3d& normal, Vec3d& start) const {
   double least = 2;  // cosine of the widest sector so far
   for (const Arc& arc : arcs_) {
-    const Triangle& own = points_.facePoints[arc.face];
-    const bool isOwn = own[0] == p || own[1] == p || own[2] == p;
     const Vec3d a = edges_[static_cast<std::size_t>(arc.from)].direction;
     const Vec3d b = edges_[static_cast<std::size_t>(arc.to)].direction;
     const Vec3d n = normalized(cross(a, b));
-    if (!isOwn || dot(a, b) >= least || n == Vec3d{}) continue;
+    if (!(isOwn(arc.face, p) || isOwn(arc.back, p)) || dot(a, b) >= least || n == Vec3d{}) continue;
     least = dot(a, b);
     start = normalized(normalized(a + b) + n * (dot(n, normal) < 0 ? -kStartHeight : kStartHeight));
   }
@@ -81,6 +89,10 @@ void FanTest::orient(const Vec3d& start) {
     if (!arc.front) {
       std::swap(arc.from, arc.to);
       plane = -plane;
+      if (arc.back != kNone) {
+        std::swap(arc.face, arc.back);
+        arc.front = true;
+      }
     }
     arc.plane = Vec3f(plane);
   }

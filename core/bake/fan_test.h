@@ -44,13 +44,17 @@ class FanTest {
   };
   struct Arc {
     std::uint32_t face;
-    int from, to;  // edges, ordered so that s lies on the positive side of from x to
-    Vec3f plane;   // normal of the face's plane on the side of s, any length
-    bool front;    // s is on the front of the face
+    std::uint32_t back;  // a coincident face wound the other way, or kNone
+    int from, to;        // edges, ordered so that s lies on the positive side of from x to
+    Vec3f plane;         // normal of the face's plane on the side of s, any length
+    bool front;          // s is on the front of the face
   };
 
   bool risesAboveTangentPlane(std::uint32_t p) const;
+  static constexpr std::uint32_t kNone = LightingPoints::kNone;
+
   int edgeTo(std::uint32_t position, const Vec3f& origin);
+  bool isOwn(std::uint32_t face, std::uint32_t p) const;
   void addArcs(std::uint32_t p);
   bool chooseStart(std::uint32_t p, const Vec3d& normal, Vec3d& start) const;
   void orient(const Vec3d& start);
