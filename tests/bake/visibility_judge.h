@@ -28,29 +28,38 @@ class VisibilityJudge {
   /// `far` in work units: faces farther away do not count.
   explicit VisibilityJudge(const LightingPoints& points, double far = std::numeric_limits<double>::infinity());
 
+  /// Takes up a point, of which the rest is asked.
+  void setPoint(std::uint32_t point);
+
   /// Faces that do not touch the position.
-  Sees beyondFan(std::uint32_t point, const Vec3d& direction) const;
+  Sees beyondFan(const Vec3d& direction) const;
   /// Faces that touch it: the one-sided rule of fan_test.h, each arc intersected for itself. Nothing blocks where no
   /// arc rises above the tangent plane.
-  Sees throughFan(std::uint32_t point, const Vec3d& direction) const;
-  Sees look(std::uint32_t point, const Vec3d& direction) const;
+  Sees throughFan(const Vec3d& direction) const;
+  Sees look(const Vec3d& direction) const;
 
   /// The greatest n.d over the arcs of the fan, at least 0.
-  double fanHeight(std::uint32_t point) const;
-  /// The start of the one-sided rule; false where no own face has an extent.
-  bool startAbove(std::uint32_t point, Vec3d& start) const;
+  double fanHeight() const { return height_; }
 
   static constexpr double kMargin = 20 * 0x1p-24;
 
  private:
   struct Arc {
-    Vec3d a, b;  // unit
+    Vec3d a, b;   // unit
+    Vec3d plane;  // unit normal of the face; zero where it has no extent
   };
-  Sees hits(const Triangle& face, const Vec3d& origin, const Vec3d& direction) const;
-  std::vector<Arc> arcs(std::uint32_t point) const;
+  Sees hits(const Triangle& face, const Vec3d& direction) const;
+  void collectFan(std::uint32_t point);
+  double highestPoint(const Vec3d& normal) const;
 
   const LightingPoints& points_;
   double contact_ = 0, far_;
+  Vec3d origin_;
+  std::vector<std::uint32_t> beyond_;  // faces that do not touch the position
+  std::vector<Arc> arcs_;
+  bool hasStart_ = false;
+  Vec3d start_;
+  double height_ = 0;
 };
 
 }  // namespace shbake::testing
