@@ -5,6 +5,7 @@ find_package(TBB REQUIRED)
 find_package(Eigen3 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(CGAL REQUIRED)
 
 # Debian 12's own CMake files of OpenImageIO ask for its viewer and for OpenCV's headers, neither of which the library needs.
 find_path(OPENIMAGEIO_INCLUDE_DIR OpenImageIO/imageio.h REQUIRED)
