@@ -68,7 +68,7 @@ TEST_CASE("work done twice over is never reported as more than all") {
   CHECK(last.done == 10);
 }
 
-TEST_CASE("threads are counted exactly; reports come one at a time and 50 ms apart") {
+TEST_CASE("threads are counted exactly, and reports come one at a time and 50 ms apart") {
   std::atomic<int> inside = 0;
   std::atomic<bool> alone = true;
   std::vector<double> times;
