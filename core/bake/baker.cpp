@@ -30,9 +30,6 @@ class Baker {
       : points_(points), wanted_(wanted), options_(options), parallel_(parallel), progress_(progress) {
     result_.transfer.order = options.order;
     result_.transfer.channels = hasColor() ? 3 : 1;
-    result_.transfer.coefficients.resize(points.size() * result_.transfer.stride());
-    result_.transfer.error.assign(points.size(), 0);
-    result_.transfer.visibility.assign(points.size(), 1);
   }
 
   PointBake run() {
@@ -66,7 +63,15 @@ class Baker {
     }
   }
 
+  /// Makes room for the result: after the BVH is built, which needs the memory only while it is.
+  void allocate() {
+    result_.transfer.coefficients.resize(points_.size() * result_.transfer.stride());
+    result_.transfer.error.assign(points_.size(), 0);
+    result_.transfer.visibility.assign(points_.size(), 1);
+  }
+
   void bakeUnshadowed() {
+    allocate();
     parallel_.forBlocks(points_.size(), 1024, [&](std::size_t begin, std::size_t end, int) {
       std::vector<double> exact(count());
       std::vector<float> direct(count());
@@ -81,6 +86,7 @@ class Baker {
   void bakeTraced() {
     const float maxDistance = static_cast<float>(options_.maxDistance * points_.frame.scale);
     const RayScene scene(points_, maxDistance, parallel_.threads(), progress_);
+    allocate();
     const bool reflect = options_.kind == TransferKind::interreflected && options_.bounces != 0 && !isBlack();
     const int rays =
         options_.rays > 0 ? options_.rays : chooseRays(points_, wanted_, scene, options_, parallel_, progress_);
@@ -153,7 +159,7 @@ class Baker {
   /// Solves T = direct + albedo * K T for each channel, as many columns at a time as the memory allows.
   void addReflections(Reflections& reflections, std::size_t memory) {
     const std::size_t padded = (count() + kColumns - 1) / kColumns * kColumns;
-    const std::size_t perColumn = points_.size() * sizeof(float) * 2 * (kFixedPointWindow + 1);
+    const std::size_t perColumn = points_.size() * sizeof(float) * 2 * kFixedPointWindow;
     const std::size_t batch = std::clamp(memory / perColumn / kColumns * kColumns, kColumns, padded);
     progress_.begin("reflecting", 0, "reflections");
     for (int channel = 0; channel < result_.transfer.channels; ++channel) {

@@ -41,16 +41,19 @@ class Solver {
         settled_(columns, 0),
         held_(columns, 0) {}
 
-  /// Takes up the newest evaluation, dropping the oldest when the window is full.
-  void add(Iterate iterate) {
-    if (window_.size() == kWindow) {
-      window_.erase(window_.begin());
-      for (Products& p : products_) {
-        for (std::size_t i = 0; i + 1 < kWindow; ++i) {
-          for (std::size_t j = 0; j + 1 < kWindow; ++j) p.f[i][j] = p.f[i + 1][j + 1];
-        }
+  /// Drops the oldest evaluation when the window is full, before memory for a new one is needed.
+  void makeRoom() {
+    if (window_.size() < kWindow) return;
+    window_.erase(window_.begin());
+    for (Products& p : products_) {
+      for (std::size_t i = 0; i + 1 < kWindow; ++i) {
+        for (std::size_t j = 0; j + 1 < kWindow; ++j) p.f[i][j] = p.f[i + 1][j + 1];
       }
     }
+  }
+
+  /// Takes up the newest evaluation. Call makeRoom() before.
+  void add(Iterate iterate) {
     window_.push_back(std::move(iterate));
     held_ = settled_;
     multiplyNewest();
@@ -189,6 +192,7 @@ FixedPointResult solveFixedPoint(std::size_t rows, std::size_t columns, std::vec
       return result;
     }
     solver.combine(x);
+    solver.makeRoom();
   }
 }
 

@@ -24,7 +24,7 @@ struct FixedPointResult {
 };
 
 /// Evaluations of g whose points are remembered: memory is 2 * kFixedPointWindow arrays.
-inline constexpr int kFixedPointWindow = 4;
+inline constexpr int kFixedPointWindow = 3;
 
 /// Solves for `rows` x `columns` floats, row by row, from the start in `x`, which holds the result afterwards.
 /// map(in, out) evaluates g. Columns are independent problems: each has its own coefficients, so that its result does
