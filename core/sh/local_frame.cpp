@@ -4,7 +4,6 @@
 #include "sh/local_frame.h"
 
 #include <cmath>
-#include <limits>
 
 #include "sh/check.h"
 
@@ -18,12 +17,11 @@ struct Polar {
 
 Polar polarOf(const Vec3d& d) {
   const double rr = d.x * d.x + d.y * d.y;
-  // Where the squares leave the normal range, hypot() does not; it is slow, so it serves the poles only.
-  const double r = rr > 1e-280 ? std::sqrt(rr) : std::hypot(d.x, d.y);
+  // Closer to a pole than this the squares lose their digits, while the azimuth has long ceased to move the direction.
+  const double r = rr > 1e-280 ? std::sqrt(rr) : 0;
   const double length = std::sqrt(rr + d.z * d.z);
   Polar polar{.theta = {d.z / length, r / length}, .phi = {}};
-  // Below the normal range x / r and y / r lose their digits; there the azimuth no longer moves the direction.
-  if (r >= std::numeric_limits<double>::min()) polar.phi = {d.x / r, d.y / r};
+  if (r > 0) polar.phi = {d.x / r, d.y / r};
   return polar;
 }
 

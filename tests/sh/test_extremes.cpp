@@ -64,6 +64,18 @@ TEST_CASE("extremes close to the found ones are not lower: a fine local search f
   }
 }
 
+TEST_CASE("a flat minimum, of fourth order, is found too") {
+  // (1 - d.a)^2 = 4/3 - 2 P_1 + 2/3 P_2 of the cosine: 0 at a and 4 opposite.
+  const Vec3d axis = randomDirection(108, 0);
+  const std::vector<double> zonal{4.0 / 3 * std::sqrt(4 * kPi), -2 * std::sqrt(4 * kPi / 3),
+                                  2.0 / 3 * std::sqrt(4 * kPi / 5)};
+  std::vector<double> c(9);
+  rotateZonal(zonal, axis, c);
+  const Range range = valueRange(3, c);
+  REQUIRE(std::abs(range.min.value) < 1e-12);
+  REQUIRE(std::abs(range.max.value - 4) < 1e-12);
+}
+
 TEST_CASE("Green's light at order 4 rings to -0.1844 and peaks at 0.684") {
   const Range range = valueRange(4, greenCoefficients(4));
   REQUIRE(std::abs(range.min.value + 0.1844) < 5e-5);

@@ -13,7 +13,7 @@ namespace {
 
 std::vector<Vec3d> hardNormals() {
   std::vector<Vec3d> normals{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
-  for (const double e : {1e-320, 5e-324, 1e-300, 1e-17, 1e-12, 1e-8, 1e-4, 1e-2}) {
+  for (const double e : {5e-324, 1e-300, 3e-162, 1e-161, 1e-140, 1e-17, 1e-12, 1e-8, 1e-4, 1e-2}) {
     normals.push_back(normalized(Vec3d{e, -e, 1}));
     normals.push_back(normalized(Vec3d{-e, 2 * e, -1}));
   }

@@ -25,6 +25,17 @@ TEST_CASE("products equal the projection of the pointwise product") {
   }
 }
 
+TEST_CASE("products of high order keep their small terms") {
+  const int order = 13;
+  const auto a = randomCoefficients(order, 119), b = randomCoefficients(order, 120);
+  std::vector<double> product(coefficientCount(order));
+  TripleProduct(order, order, order).apply(a, b, product);
+  const auto expected = project(
+      order, [&](const Vec3d& d) { return valueAt(order, a, d) * valueAt(order, b, d); }, 2 * order - 2);
+  // 169 coefficients of size 1 a factor: products reach 100.
+  REQUIRE(maxDifference(product, expected) < 1e-12);
+}
+
 TEST_CASE("the factored order-3 form equals the table to 1e-14") {
   const TripleProduct table(3, 3, 3);
   for (int trial = 0; trial < 100; ++trial) {
