@@ -10,7 +10,9 @@ namespace shbake::cli {
 #define SHBAKE_VERBS(VERB) \
   VERB(bake)               \
   VERB(info)               \
-  VERB(compare)
+  VERB(compare)            \
+  VERB(light)              \
+  VERB(sh)
 
 #define SHBAKE_DECLARE(name) extern const VerbEntry name##Verb;
 SHBAKE_VERBS(SHBAKE_DECLARE)

@@ -1,0 +1,122 @@
+// Lights on the command line.
+#include "cli/light_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "cli/format.h"
+#include "cli/parse.h"
+
+namespace shbake::cli {
+namespace {
+
+constexpr double kMost = 1e30;  // far from where squares of coefficients overflow
+
+std::vector<double> asList(const Vec3d& v) {
+  return {v.x, v.y, v.z};
+}
+
+void describeRange(const Light& light, Report& report) {
+  const sh::Range range = sh::valueRange(light.order, luminance(light));
+  const auto add = [&](const std::string& key, const sh::Extreme& extreme) {
+    report.data("radiance." + key + "_direction", asList(extreme.direction));
+    report.fact("radiance." + key, extreme.value, key == "min" ? "darkest" : "brightest",
+                formatNumber(extreme.value, 5) + " from " + vectorText(extreme.direction) +
+                    (extreme.value < 0 ? ": negative by ringing; a window lessens it" : ""));
+  };
+  add("min", range.min);
+  add("max", range.max);
+}
+
+}  // namespace
+
+std::vector<double> parseNumbers(const std::string& name, const std::string& text, std::size_t least, std::size_t most,
+                                 const std::string& form) {
+  std::vector<double> numbers;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) numbers.push_back(parseReal(name, part, -kMost, kMost));
+  if (numbers.size() < least || numbers.size() > most || text.ends_with(',')) {
+    throw usageError(name + ": '" + text + "' has " + std::to_string(numbers.size()) + " numbers", "give " + form);
+  }
+  return numbers;
+}
+
+Vec3d colorFrom(const std::vector<double>& numbers, std::size_t first, const std::string& name) {
+  const std::size_t count = numbers.size() - first;
+  if (count == 1) return Vec3d{1, 1, 1} * numbers[first];
+  if (count == 3) return {numbers[first], numbers[first + 1], numbers[first + 2]};
+  throw usageError(name + ": a colour has one number or three, not " + std::to_string(count),
+                   "give GREY or R,G,B at the end");
+}
+
+sh::Matrix3d parseTurn(const std::string& name, const std::string& text) {
+  const std::vector<double> n = parseNumbers(name, text, 4, 4, "X,Y,Z,DEG: an axis and an angle in degrees");
+  return sh::rotationAbout({n[0], n[1], n[2]}, n[3] * std::acos(-1.0) / 180);
+}
+
+WeightedFile parseWeightedFile(const std::string& text) {
+  const std::size_t at = text.rfind('@');
+  const bool hasWeight = at != std::string::npos && at > 0 && at + 1 < text.size() &&
+                         text.find_first_not_of("0123456789.,eE+-", at + 1) == std::string::npos;
+  if (!hasWeight) return {text};
+  const std::vector<double> numbers = parseNumbers(text, text.substr(at + 1), 1, 3, "FILE@WEIGHT or FILE@R,G,B");
+  return {text.substr(0, at), colorFrom(numbers, 0, text)};
+}
+
+std::string vectorText(const Vec3d& v) {
+  std::string text;
+  for (const double x : {v.x, v.y, v.z}) {
+    text += text.empty() ? '(' : ' ';
+    text += formatNumber(std::abs(x) < 1e-12 ? 0.0 : x, 4);
+    text += ',';
+  }
+  text.back() = ')';
+  return text;
+}
+
+double windowLight(sh::Window window, Light& light) {
+  if (window == sh::Window::none) return 0;
+  double lambda = 0;
+  if (window == sh::Window::automatic) {
+    for (int c = 0; c < 3; ++c) lambda = std::max(lambda, sh::automaticLambda(light.order, light.channel(c)));
+  }
+  const std::vector<double> factors = window == sh::Window::automatic ? sh::laplacianFactors(lambda, light.order)
+                                                                      : sh::windowFactors(window, light.order);
+  for (int c = 0; c < 3; ++c) {
+    std::vector<double> values = light.channel(c);
+    sh::applyFactors(factors, values);
+    light.setChannel(c, values);
+  }
+  return lambda;
+}
+
+void describeLight(const Light& light, Report& report) {
+  const int n = light.order;
+  report.fact("order", std::int64_t(n), "order",
+              std::to_string(n) + (n == 1 ? " band, " : " bands, ") + std::to_string(n * n) +
+                  " coefficients a channel, degree up to " + std::to_string(n - 1));
+  const Vec3d mean = light.coefficients[0] * (1 / std::sqrt(4 * std::acos(-1.0)));
+  report.fact("radiance.mean", asList(mean), "mean", vectorText(mean) + " red, green, blue");
+
+  std::vector<double> energies;
+  double total = 0;
+  for (const Vec3d& e : bandEnergies(light)) {
+    energies.push_back(e.x + e.y + e.z);
+    total += energies.back();
+  }
+  std::string shares;
+  for (const double e : energies) shares += (shares.empty() ? "" : ", ") + formatPercent(total > 0 ? e / total : 0);
+  report.fact("band_energy", energies, "energy", shares + " by band, of " + formatNumber(total, 5));
+
+  describeRange(light, report);
+  const Dominant dominant = dominantDirection(light);
+  report.data("direction", asList(dominant.direction));
+  report.fact("r1_over_r0", dominant.ratio, "direction",
+              n < 2 ? "none at order 1"
+                    : vectorText(dominant.direction) + ", |R1|/R0 = " + formatNumber(dominant.ratio, 4) +
+                          " (0 even, 1 from one direction)");
+}
+
+}  // namespace shbake::cli

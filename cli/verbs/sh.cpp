@@ -1,0 +1,269 @@
+// `shbake sh`: a calculator for spherical-harmonic coefficients.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "cli/format.h"
+#include "cli/light_text.h"
+#include "cli/options.h"
+#include "cli/parse.h"
+#include "cli/verb.h"
+
+namespace shbake::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How coefficients are written down outside of light files.
+enum class Convention { shbake, condonShortley, geodesy };
+
+const std::vector<std::pair<std::string, Convention>> kConventions{
+    {"shbake", Convention::shbake}, {"condon-shortley", Convention::condonShortley}, {"geodesy", Convention::geodesy}};
+
+Light converted(const Light& light, Convention convention, bool to) {
+  Light result(light.order);
+  for (int c = 0; c < 3; ++c) {
+    std::vector<double> values = light.channel(c);
+    if (convention == Convention::condonShortley) sh::flipCondonShortley(light.order, values);
+    if (convention == Convention::geodesy) {
+      to ? sh::toGeodesy(light.order, values) : sh::fromGeodesy(light.order, values);
+    }
+    result.setChannel(c, values);
+  }
+  return result;
+}
+
+/// Coefficients from a text of numbers: n^2 for grey light, or n^2 rows of three.
+Light readCoefficients(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw Error({.file = path, .cause = "cannot be opened", .remedy = "correct the path"});
+  constexpr std::size_t kMostNumbers = 3 * std::size_t(kMaxLightOrder) * kMaxLightOrder;
+  std::vector<double> numbers;
+  int line = 0;
+  for (std::string text; std::getline(stream, text);) {
+    ++line;
+    for (char& c : text) c = c == ',' || c == ';' || c == '\r' ? ' ' : c;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+      if (word[0] == '#') break;
+      try {
+        numbers.push_back(parseReal("", word, -1e30, 1e30));
+      } catch (const Error&) {
+        throw Error({.file = path,
+                     .place = "line " + std::to_string(line),
+                     .cause = "'" + word.substr(0, 40) + "' is not a number within 1e30",
+                     .remedy = "give a light file, or a text of n^2 or 3 n^2 numbers"});
+      }
+      if (numbers.size() > kMostNumbers) {
+        throw Error({.file = path, .cause = "holds more numbers than order 128 has", .remedy = "give fewer"});
+      }
+    }
+  }
+  for (const std::size_t channels : {std::size_t(1), std::size_t(3)}) {
+    const int order = static_cast<int>(std::lround(std::sqrt(static_cast<double>(numbers.size() / channels))));
+    if (order < 1 || order > kMaxLightOrder || channels * order * order != numbers.size()) continue;
+    Light light(order);
+    for (std::size_t i = 0; i < light.coefficients.size(); ++i) {
+      const double* n = &numbers[i * channels];
+      light.coefficients[i] = channels == 1 ? Vec3d{n[0], n[0], n[0]} : Vec3d{n[0], n[1], n[2]};
+    }
+    return light;
+  }
+  throw Error({.file = path,
+               .cause = "holds " + std::to_string(numbers.size()) + " numbers, neither n^2 (grey) nor 3 n^2 (colour)",
+               .remedy = "give all coefficients of an order"});
+}
+
+class Calculate : public Verb {
+ public:
+  void declare(CLI::App& app) override;
+  void run(Session& session) override;
+
+ private:
+  LightFile read(const std::string& path) const;
+  void calculate(Session& session);
+  void multiply();
+  void describeDirections(Report& report) const;
+  void printHazel(Report& report) const;
+  void printCoefficients(Report& report) const;
+
+  std::string input_, output_, factor_;
+  std::vector<std::string> turns_, directions_;
+  std::string mirror_ = "none";
+  int order_ = 0;
+  bool print_ = false, hazel_ = false;
+  sh::Window window_ = sh::Window::none;
+  Convention from_ = Convention::shbake, to_ = Convention::shbake;
+  LightFile file_;
+};
+
+void Calculate::declare(CLI::App& app) {
+  addFile(app, "FILE", input_, "a light file (.shlight), or a text of n^2 numbers (grey) or n^2 rows of three");
+  addText(app, {"-o,--output", "FILE", "write the result as a light file (.shlight)"}, output_);
+  addChoice<Convention>(app,
+                        {"--from", "NAME",
+                         "convention of a text: shbake (real, orthonormal, no Condon-Shortley sign, index l(l+1)+m), "
+                         "condon-shortley, or geodesy (4 pi normalised)"},
+                        from_, kConventions);
+  app.add_option("--turn", turns_, "turn by an angle in degrees about an axis; may be repeated")
+      ->type_name("X,Y,Z,DEG")
+      ->allow_extra_args(false);
+  addChoice<std::string>(app, {"--mirror", "AXIS", "then mirror: exchange the sign of x, y or z, or none"}, mirror_,
+                         {{"none", "none"}, {"x", "x"}, {"y", "y"}, {"z", "z"}});
+  addText(app,
+          {"--multiply", "FILE", "then multiply by the function of another file (the product of both as functions)"},
+          factor_);
+  addOption(app, {"--order", "N", "then keep N bands, 1..64"}, "as many as the file has",
+            [this](const std::string& name, const std::string& text) {
+              order_ = static_cast<int>(parseWhole(name, text, 1, 64));
+            });
+  addChoice<sh::Window>(app, {"--window", "KIND", "then damp high bands: none, hann, lanczos, gauss or auto"}, window_,
+                        {{"none", sh::Window::none},
+                         {"hann", sh::Window::hann},
+                         {"lanczos", sh::Window::lanczos},
+                         {"gauss", sh::Window::gauss},
+                         {"auto", sh::Window::automatic}});
+  app.add_option("--at", directions_, "tell radiance from, and irradiance at, a direction; may be repeated")
+      ->type_name("X,Y,Z")
+      ->allow_extra_args(false);
+  addSwitch(app, "--print", print_, "print the coefficients, a row for each");
+  addChoice<Convention>(app, {"--to", "NAME", "convention of --print: shbake, condon-shortley or geodesy"}, to_,
+                        kConventions);
+  addSwitch(app, "--hazel", hazel_, "print mean, vector and matrix of the first three bands (Hazel's form)");
+}
+
+LightFile Calculate::read(const std::string& path) const {
+  if (fs::path(path).extension() == ".shlight") {
+    if (from_ != Convention::shbake) {
+      throw usageError("--from is for texts of numbers; " + path + " is a light file", "leave --from out");
+    }
+    return readLightFile(path);
+  }
+  LightFile file;
+  file.light = converted(readCoefficients(path), from_, false);
+  file.sources.push_back(fs::path(path).filename().string() + ": coefficients");
+  return file;
+}
+
+void Calculate::multiply() {
+  const LightFile factor = read(factor_);
+  if (factor.up != file_.up) {
+    throw Error({.file = factor_,
+                 .place = "field \"axes\"",
+                 .cause = "is not that of " + input_,
+                 .remedy = "turn one of them"});
+  }
+  const Light &a = file_.light, &b = factor.light;
+  const int order = order_ > 0 ? order_ : a.order;
+  const sh::TripleProduct product(order, a.order, b.order);
+  Light result(order);
+  for (int c = 0; c < 3; ++c) {
+    std::vector<double> values(result.coefficients.size());
+    product.apply(a.channel(c), b.channel(c), values);
+    result.setChannel(c, values);
+  }
+  file_.light = result;
+  file_.sources.push_back("times " + fs::path(factor_).filename().string());
+}
+
+void Calculate::calculate(Session& session) {
+  for (const std::string& text : turns_) {
+    file_.light = rotated(file_.light, parseTurn("--turn", text));
+    file_.sources.push_back("turn " + text);
+  }
+  if (mirror_ != "none") {
+    const MirrorAxis axis = mirror_ == "x" ? MirrorAxis::x : mirror_ == "y" ? MirrorAxis::y : MirrorAxis::z;
+    file_.light = mirrored(file_.light, axis);
+    file_.sources.push_back("mirror " + mirror_);
+  }
+  if (!factor_.empty()) multiply();
+  if (order_ > 0) file_.light = withOrder(file_.light, order_);
+  if (window_ == sh::Window::none) return;
+  const double lambda = windowLight(window_, file_.light);
+  const std::string name(sh::windowName(window_));
+  file_.sources.push_back("window " + name);
+  session.report.fact("window.lambda", lambda, "window",
+                      name + (window_ == sh::Window::automatic ? ", lambda " + formatNumber(lambda, 4) : ""));
+}
+
+void Calculate::describeDirections(Report& report) const {
+  for (std::size_t i = 0; i < directions_.size(); ++i) {
+    const auto n = parseNumbers("--at", directions_[i], 3, 3, "X,Y,Z");
+    const Vec3d d = normalized(Vec3d{n[0], n[1], n[2]});
+    if (d == Vec3d{}) throw usageError("--at: a direction is zero", "give a vector such as 0,0,1");
+    const Vec3d radiance = radianceFrom(file_.light, d), irradiance = irradianceAt(file_.light, d);
+    const std::string key = "at." + std::to_string(i);
+    report.data(key + ".direction", std::vector<double>{d.x, d.y, d.z});
+    report.data(key + ".radiance", std::vector<double>{radiance.x, radiance.y, radiance.z});
+    report.data(key + ".irradiance", std::vector<double>{irradiance.x, irradiance.y, irradiance.z});
+    report.line("at " + vectorText(d), "radiance " + vectorText(radiance) + ", irradiance " + vectorText(irradiance));
+  }
+}
+
+void Calculate::printHazel(Report& report) const {
+  if (!hazel_) return;
+  const Light nine = withOrder(file_.light, 3);
+  const char* names[] = {"red", "green", "blue"};
+  for (int c = 0; c < 3; ++c) {
+    const sh::HazelLight h = sh::toHazel(nine.channel(c));
+    report.data(std::string("hazel.") + names[c],
+                std::vector<double>{h.r0, h.r1.x, h.r1.y, h.r1.z, h.xx, h.yy, h.zz, h.xy, h.xz, h.yz});
+    report.line(std::string("hazel ") + names[c], "R0 " + formatNumber(h.r0, 6) + ", R1 " + vectorText(h.r1) +
+                                                      ", R2 xx yy zz " + vectorText({h.xx, h.yy, h.zz}) + " xy xz yz " +
+                                                      vectorText({h.xy, h.xz, h.yz}));
+  }
+}
+
+void Calculate::printCoefficients(Report& report) const {
+  if (!print_) return;
+  const Light light = converted(file_.light, to_, true);
+  std::vector<double> all;
+  for (int i = 0; i < sh::coefficientCount(light.order); ++i) {
+    const Vec3d& c = light.coefficients[i];
+    all.insert(all.end(), {c.x, c.y, c.z});
+    report.line("l " + std::to_string(sh::degreeOf(i)) + "  m " + std::to_string(sh::orderOf(i)),
+                formatNumber(c.x) + " " + formatNumber(c.y) + " " + formatNumber(c.z));
+  }
+  report.data("coefficients", all);
+}
+
+void Calculate::run(Session& session) {
+  if (input_.empty()) throw usageError("no file is named", "usage: shbake sh FILE [OPTIONS]");
+  if (!output_.empty()) {
+    if (fs::path(output_).extension() != ".shlight") {
+      throw Error({.kind = ErrorKind::usage,
+                   .file = output_,
+                   .cause = "is not named as a light file",
+                   .remedy = "name it .shlight"});
+    }
+    checkWritable(output_);
+  }
+  file_ = read(input_);
+  calculate(session);
+  describeLight(file_.light, session.report);
+  describeDirections(session.report);
+  printHazel(session.report);
+  printCoefficients(session.report);
+  if (output_.empty()) return;
+  writeLightFile(output_, file_);
+  session.report.fact("output.file", output_, "output", output_);
+}
+
+}  // namespace
+
+extern const VerbEntry shVerb;
+const VerbEntry shVerb{
+    "sh", "FILE", "calculate with spherical-harmonic coefficients",
+    "Reads a light file or a list of coefficients, turns, mirrors, multiplies, cuts and windows it in this order, and "
+    "tells its energy by band, its least and greatest value, and its direction. 'shbake light' projects maps and "
+    "skies.\n"
+    "\n"
+    "Examples:\n"
+    "  shbake sh room.shlight --at 0,0,1 --print\n"
+    "  shbake sh room.shlight --turn 0,0,1,90 --window auto -o turned.shlight\n"
+    "  shbake sh list.txt --from condon-shortley -o light.shlight",
+    [] { return std::unique_ptr<Verb>(std::make_unique<Calculate>()); }};
+
+}  // namespace shbake::cli
