@@ -58,6 +58,10 @@ void splitMesh(Mesh& mesh, const LightingPoints& points, const std::vector<std::
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) mesh.triangles[f][k] = renumbered[points.outputFaces[f][k]];
   }
+}
+
+/// Gives each output vertex the normal of its lighting point.
+void setNormals(Mesh& mesh, const LightingPoints& points, const std::vector<std::uint32_t>& outputs) {
   mesh.cornerNormals.clear();
   mesh.vertexNormals.assign(outputs.size(), Vec3f());
   for (std::size_t i = 0; i < outputs.size(); ++i) {
@@ -101,7 +105,8 @@ TransferFacts describe(const PointBake& baked, const BakeOptions& options) {
   return facts;
 }
 
-void warn(BakedMesh& result, const PointBake& baked, const LightingPoints& points, const BakeOptions& options) {
+void warn(BakedMesh& result, const PointBake& baked, const LightingPoints& points,
+          const std::vector<std::uint32_t>& outputs, const BakeOptions& options) {
   if (!baked.converged) {
     result.warnings.push_back("the reflections did not converge in " + std::to_string(baked.bounces) +
                               " steps: the mesh encloses light with an albedo too close to 1; lower the albedo");
@@ -113,7 +118,8 @@ void warn(BakedMesh& result, const PointBake& baked, const LightingPoints& point
   if (options.rays == 0 && baked.rmsError > options.tolerance) {
     result.warnings.push_back("the stated error is above the tolerance; ask for more rays");
   }
-  const auto isolated = std::count(points.outputPoint.begin(), points.outputPoint.end(), LightingPoints::kNone);
+  const auto isolated = std::count_if(outputs.begin(), outputs.end(),
+                                      [&](std::uint32_t i) { return points.outputPoint[i] == LightingPoints::kNone; });
   if (isolated > 0) {
     result.warnings.push_back(std::to_string(isolated) + " vertices belong to no face: their transfer is zero");
   }
@@ -146,19 +152,23 @@ BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshO
     points = makeLightingPoints(scene.mesh, options.points, scene.albedo);
   }
 
-  // Transfer of every lighting point.
+  // The mesh's vertices in their order, then those that are split off; two copies of the faces are not needed.
   const std::vector<std::uint32_t> outputs = ownOutputs(points, vertices);
+  splitMesh(mesh, points, outputs);
+  points.outputFaces = {};
+
+  // Transfer of every lighting point.
   const std::vector<std::uint8_t> wanted = wantedPoints(points, outputs);
   const PointBake baked = bakePoints(points, wanted, options.bake, parallel, progress);
 
-  // Back to the mesh: its vertices in their order, then those that were split off.
+  // Back to the mesh.
   result.transfer = expand(baked.transfer, points, outputs);
   result.facts = describe(baked, options.bake);
   result.facts.lightingPoints = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 1));
   result.facts.sourceVertices = vertices;
   result.facts.source = std::filesystem::path(mesh.source).filename().string();
-  warn(result, baked, points, options.bake);
-  splitMesh(mesh, points, outputs);
+  warn(result, baked, points, outputs, options.bake);
+  setNormals(mesh, points, outputs);
   if (outputs.size() > vertices) {
     for (const std::uint32_t i : outputs) result.sourceVertex.push_back(points.outputSource[i]);
   }
