@@ -16,16 +16,23 @@ thread_local std::size_t largestAllocation = 0;
 }  // namespace
 
 // The whole program allocates through these; they note the largest request and are otherwise the standard ones.
-// Inlined, GCC would see free() on what `new` returned and warn of a mismatch.
-[[gnu::noinline]] void* operator new(std::size_t bytes) {
+// Inlined, GCC would see free() on what `new` returned and warn of a mismatch. The forms that do not throw are replaced
+// too, because sanitizers have their own, whose memory may not be freed here.
+[[gnu::noinline]] void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
   if (bytes > largestAllocation) largestAllocation = bytes;
-  if (void* memory = std::malloc(bytes ? bytes : 1)) return memory;
+  return std::malloc(bytes ? bytes : 1);
+}
+[[gnu::noinline]] void* operator new(std::size_t bytes) {
+  if (void* memory = operator new(bytes, std::nothrow)) return memory;
   throw std::bad_alloc();
 }
 [[gnu::noinline]] void operator delete(void* memory) noexcept {
   std::free(memory);
 }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, const std::nothrow_t&) noexcept {
   std::free(memory);
 }
 
