@@ -20,4 +20,6 @@ endif()
 if(SHBAKE_SANITIZE)
   target_compile_options(shbake_options INTERFACE -fsanitize=${SHBAKE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(shbake_options INTERFACE -fsanitize=${SHBAKE_SANITIZE})
+  # Instrumented code hides from GCC's flow analysis that a value is set: it then warns of the standard library itself.
+  target_compile_options(shbake_options INTERFACE -Wno-maybe-uninitialized)
 endif()
