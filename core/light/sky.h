@@ -24,7 +24,7 @@ struct SkyOptions {
   Vec3d zenith{1, 1, 1};    ///< radiance at the zenith, 0 or more a channel
   double sunAltitude = 45;  ///< degrees above the horizon, 0..90; not used by the overcast sky
   double sunAzimuth = 0;    ///< degrees clockwise from north, seen from above: 0 = north = +y, 90 = east = +x
-  Vec3d groundAlbedo;       ///< 0..1 a channel: below the horizon the ground reflects the sky evenly; 0 leaves it black
+  Vec3d groundAlbedo{};     ///< 0..1 a channel: below the horizon the ground reflects the sky evenly; 0 leaves it black
 };
 
 /// Unit vector towards the sun, +z up.
