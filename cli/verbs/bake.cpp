@@ -24,7 +24,7 @@ class Bake : public Verb {
   void declareSurface(CLI::App& app);
   void checkPaths() const;
   void warnOfIdleOptions(Session& session) const;
-  void describe(const BakedMesh& baked, Session& session) const;
+  void describe(const BakedMesh& baked, const std::vector<std::string>& findings, Session& session) const;
 
   std::string mesh_, output_;
   std::vector<std::string> blockers_;
@@ -50,8 +50,7 @@ void Bake::declareTransfer(CLI::App& app) {
                           {{"unshadowed", TransferKind::unshadowed},
                            {"shadowed", TransferKind::shadowed},
                            {"interreflected", TransferKind::interreflected}});
-  addWhole(app, {"--order", "N", "bands of spherical harmonics, 1..32: N x N coefficients a channel"}, bake.order, 1,
-           32);
+  addWhole(app, {"--order", "N", "bands of spherical harmonics, 1..8: N x N coefficients a channel"}, bake.order, 1, 8);
   rays_ = addOption(app, {"--rays", "N", "rays a point, 1..1048576, rounded up to a multiple of 16"},
                     "as many as --tolerance needs", [&bake](const std::string& name, const std::string& text) {
                       bake.rays = static_cast<int>(parseWhole(name, text, 1, 1 << 20));
@@ -155,13 +154,14 @@ void Bake::run(Session& session) {
   checkPaths();
   warnOfIdleOptions(session);
   Mesh mesh = readMesh(mesh_, session.progress);
+  const std::vector<std::string> findings = describeFindings(checkMesh(mesh));
   std::vector<Mesh> blockers;
   for (const std::string& path : blockers_) blockers.push_back(readMesh(path, session.progress));
   const BakedMesh baked = bakeMesh(std::move(mesh), blockers, options_, session.parallel, session.progress);
   writeBakedPly(output_, baked.mesh, baked.transfer, baked.facts, baked.sourceVertex, ply_, session.progress);
   session.display.finish();
   for (const std::string& sentence : baked.warnings) session.warn(sentence);
-  describe(baked, session);
+  describe(baked, findings, session);
 }
 
 /// The times of the stages as one line, longest first, those below a hundredth of a second left out.
@@ -197,7 +197,7 @@ void describeTime(Session& session) {
   }
 }
 
-void Bake::describe(const BakedMesh& baked, Session& session) const {
+void Bake::describe(const BakedMesh& baked, const std::vector<std::string>& findings, Session& session) const {
   const TransferFacts& facts = baked.facts;
   Report& report = session.report;
   const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
@@ -207,6 +207,8 @@ void Bake::describe(const BakedMesh& baked, Session& session) const {
   report.fact(
       "output.points", whole(facts.lightingPoints), "points",
       formatCount(facts.lightingPoints) + " lighting points, from " + formatCount(facts.sourceVertices) + " vertices");
+  report.data("input.findings", findings);
+  for (std::size_t i = 0; i < findings.size(); ++i) report.line(i == 0 ? "check" : "", findings[i]);
   report.fact("albedo", baked.albedoNote, "albedo", baked.albedoNote);
   describeTransfer(baked.transfer, &facts, report);
   describeTime(session);
