@@ -12,7 +12,9 @@ namespace shbake::cli {
   VERB(info)               \
   VERB(compare)            \
   VERB(light)              \
-  VERB(sh)
+  VERB(sh)                 \
+  VERB(relight)            \
+  VERB(render)
 
 #define SHBAKE_DECLARE(name) extern const VerbEntry name##Verb;
 SHBAKE_VERBS(SHBAKE_DECLARE)

@@ -1,8 +1,7 @@
-// Pictures to files, encoded in memory by OpenImageIO.
+// Pictures to files, encoded by a module that is loaded for the first of them.
 #include "view/picture_file.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
+#include <dlfcn.h>
 
 #include <algorithm>
 #include <cctype>
@@ -11,27 +10,21 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "view/picture_module.h"
 #include "view/tone_map.h"
 
 namespace shbake {
 namespace {
 
-[[noreturn]] void fail(const std::string& path, const std::string& cause) {
-  throw Error({.file = path, .cause = "the picture cannot be encoded: " + cause, .remedy = "report it"});
-}
-
-std::vector<unsigned char> encode(const std::string& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc from,
-                                  const void* pixels) {
-  const std::string format = pictureFormatOf(path) == PictureFormat::png ? "png" : "openexr";
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  const auto output = OIIO::ImageOutput::create(format);
-  if (!output || !output->supports("ioproxy")) fail(path, "this OpenImageIO does not write " + format + " to memory");
-  output->set_ioproxy(&memory);
-  if (!output->open("picture." + format, spec) || !output->write_image(from, pixels) || !output->close()) {
-    fail(path, output->geterror());
-  }
-  return bytes;
+/// The module's function. It stays loaded.
+decltype(&shbakeEncodePicture) encoder() {
+  static void* const module = ::dlopen(SHBAKE_PICTURE_MODULE, RTLD_NOW | RTLD_LOCAL);
+  void* const symbol = module == nullptr ? nullptr : ::dlsym(module, "shbakeEncodePicture");
+  if (symbol != nullptr) return reinterpret_cast<decltype(&shbakeEncodePicture)>(symbol);
+  const char* const reason = ::dlerror();
+  throw Error({.file = SHBAKE_PICTURE_MODULE,
+               .cause = std::string("this part of shbake cannot be loaded: ") + (reason ? reason : "no reason is told"),
+               .remedy = "build shbake again, or install it whole"});
 }
 
 }  // namespace
@@ -49,21 +42,23 @@ PictureFormat pictureFormatOf(const std::string& path) {
 }
 
 void writePicture(const std::string& path, const Picture& picture) {
-  std::vector<unsigned char> bytes;
+  static_assert(sizeof(Rgb) == 3 * sizeof(float));
+  ShbakeRawPicture raw{picture.width, picture.height};
+  std::vector<unsigned char> display;
   if (pictureFormatOf(path) == PictureFormat::png) {
-    std::vector<unsigned char> encoded;
-    encoded.reserve(3 * picture.pixels.size());
+    display.reserve(3 * picture.pixels.size());
     for (const Rgb& c : picture.pixels) {
-      for (const float v : {c.x, c.y, c.z}) encoded.push_back(encodedByte(v));
+      for (const float v : {c.x, c.y, c.z}) display.push_back(encodedByte(v));
     }
-    OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeUInt8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("png:compressionLevel", 9);
-    bytes = encode(path, spec, OIIO::TypeUInt8, encoded.data());
+    raw.display = display.data();
   } else {
-    OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeHalf);
-    spec.attribute("oiio:ColorSpace", "Linear");
-    bytes = encode(path, spec, OIIO::TypeFloat, picture.pixels.data());
+    raw.radiance = &picture.pixels.data()->x;
+  }
+  std::vector<unsigned char> bytes;
+  std::string failure;
+  encoder()(raw, bytes, failure);
+  if (!failure.empty()) {
+    throw Error({.file = path, .cause = "the picture cannot be encoded: " + failure, .remedy = "try the other format"});
   }
   AtomicFile file(path);
   file.write(bytes.data(), bytes.size());
