@@ -67,7 +67,8 @@ constexpr Glyph kGlyphs[] = {
 };
 
 constexpr double kBaseline = 2, kCapital = 6;  // the height of a capital above its baseline
-constexpr double kAdvance = 5.8;               // from letter to letter
+constexpr double kGap = 1.9;                   // between letters
+constexpr double kBlank = 2.4;                 // the width of a character without strokes
 constexpr double kPen = 0.4;                   // half the width of a stroke
 
 struct Segment {
@@ -80,6 +81,23 @@ const char* strokesOf(char letter) {
     if (g.letter == lower) return g.strokes;
   }
   return "";
+}
+
+/// The columns of the grid that a glyph takes.
+struct Extent {
+  double low = 0, high = kBlank;
+
+  double width() const { return high - low; }
+};
+
+Extent extentOf(const char* strokes) {
+  if (*strokes == 0) return {};
+  Extent extent{4, 0};
+  for (const char* s = strokes; *s != 0; s += s[2] == ' ' ? 3 : 2) {
+    extent.low = std::min<double>(extent.low, s[0] - '0');
+    extent.high = std::max<double>(extent.high, s[0] - '0');
+  }
+  return extent;
 }
 
 /// The strokes of a glyph in pixels; `left` and `baseline` are its corner, `unit` a step of the grid.
@@ -107,19 +125,23 @@ double distanceTo(const Segment& s, double x, double y) {
 }  // namespace
 
 void drawCaption(Picture& picture, std::string_view text, const PicturePlace& centre, double size, const Rgb& ink) {
-  const double unit = size / kCapital, width = (static_cast<double>(text.size()) * kAdvance - 1.8) * unit;
+  const double unit = size / kCapital;
+  double width = -kGap * unit;
+  for (const char letter : text) width += (extentOf(strokesOf(letter)).width() + kGap) * unit;
   std::vector<Segment> segments;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    addStrokes(strokesOf(text[i]), centre.x - width / 2 + static_cast<double>(i) * kAdvance * unit, centre.y + size / 2,
-               unit, segments);
+  double left = centre.x - width / 2;
+  for (const char letter : text) {
+    const Extent extent = extentOf(strokesOf(letter));
+    addStrokes(strokesOf(letter), left - extent.low * unit, centre.y + size / 2, unit, segments);
+    left += (extent.width() + kGap) * unit;
   }
   const double pen = kPen * unit;
   const auto low = [](double v) { return std::max(0, static_cast<int>(std::floor(v))); };
-  const int left = low(centre.x - width / 2 - size),
-            right = std::min<int>(picture.width, low(centre.x + width / 2 + size));
+  const int first = low(centre.x - width / 2 - size),
+            last = std::min<int>(picture.width, low(centre.x + width / 2 + size));
   const int top = low(centre.y - size), bottom = std::min<int>(picture.height, low(centre.y + 1.5 * size));
   for (int y = top; y < bottom; ++y) {
-    for (int x = left; x < right; ++x) {
+    for (int x = first; x < last; ++x) {
       double nearest = pen + 1;
       for (const Segment& s : segments) nearest = std::min(nearest, distanceTo(s, x + 0.5, y + 0.5));
       const auto cover = static_cast<float>(std::clamp(pen + 0.5 - nearest, 0.0, 1.0));

@@ -9,6 +9,8 @@ void shbakeEncodePicture(const ShbakeRawPicture& picture, std::vector<unsigned c
   const std::string format = png ? "png" : "openexr";
   OIIO::ImageSpec spec(picture.width, picture.height, 3, png ? OIIO::TypeUInt8 : OIIO::TypeHalf);
   spec.attribute("oiio:ColorSpace", png ? "sRGB" : "Linear");
+  // OpenImageIO would write the current time otherwise, and the same picture would give other bytes.
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
   if (png) spec.attribute("png:compressionLevel", 9);
   OIIO::Filesystem::IOVecOutput memory(bytes);
   const auto output = OIIO::ImageOutput::create(format);
