@@ -1,0 +1,172 @@
+#!/usr/bin/env python3
+"""The verbs relight and render as a user meets them.
+
+Usage: test_view_program.py PROGRAM [unittest arguments]"""
+import json
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+import meshes
+
+PROGRAM = pathlib.Path(sys.argv[1]).resolve()
+
+
+def read_ascii_ply(path):
+    """The header's comments and the vertices of an ASCII PLY file, each a dictionary of strings."""
+    header, body = path.read_text().split("end_header\n")
+    count = int(re.search(r"element vertex (\d+)", header)[1])
+    names = re.findall(r"property \w+ (\w+)\n", header.split("element face")[0])
+    rows = [dict(zip(names, line.split())) for line in body.splitlines()[:count]]
+    return re.findall(r"comment (.*)\n", header), rows
+
+
+def read_png(path):
+    """Width, height and rows of 8-bit RGB bytes."""
+    data = path.read_bytes()
+    width, height, depth, kind = struct.unpack(">IIBB", data[16:26])
+    assert (depth, kind) == (8, 2)
+    packed, at = b"", 8
+    while at < len(data):
+        length, name = struct.unpack(">I4s", data[at:at + 8])
+        if name == b"IDAT":
+            packed += data[at + 8:at + 8 + length]
+        at += 12 + length
+    raw, rows, stride = zlib.decompress(packed), [], 3 * width
+    previous = bytes(stride)
+    for y in range(height):
+        kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for x in range(stride):
+            a, b, c = line[x - 3] if x > 2 else 0, previous[x], previous[x - 3] if x > 2 else 0
+            nearest = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]
+            line[x] = (line[x] + (0, a, b, (a + b) // 2, nearest)[kind]) & 255
+        rows.append(bytes(line))
+        previous = rows[-1]
+    return width, height, rows
+
+
+class ViewTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="shbake-view-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        meshes.write_obj(self.folder / "box.obj", *meshes.box_on_floor())
+        self.ok("bake", "box.obj", "-o", "box.ply", "--transfer", "unshadowed", "--albedo", "0.8,0.4,0.2")
+
+    def run_program(self, *arguments):
+        return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True, timeout=120)
+
+    def ok(self, *arguments):
+        result = self.run_program(*arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+    def test_white_light_gives_open_points_their_albedo(self):
+        self.ok("relight", "box.ply", "--light", "white", "--colors", "floats", "--ascii", "-o", "lit.ply")
+        comments, rows = read_ascii_ply(self.folder / "lit.ply")
+        for row in rows:
+            for name, albedo in (("red", 0.8), ("green", 0.4), ("blue", 0.2)):
+                self.assertAlmostEqual(float(row[name]), albedo, delta=1e-6)
+            self.assertIn("sh_r_15", row)
+        self.assertIn("relit: red green blue are linear radiance, under white light from everywhere", comments)
+
+    def test_bytes_are_exposed_srgb_and_the_transfer_can_be_left_out(self):
+        self.ok("relight", "box.ply", "--light", "white", "--exposure", "0", "--drop-sh", "--ascii", "-o", "lit.ply")
+        comments, rows = read_ascii_ply(self.folder / "lit.ply")
+        self.assertEqual({(r["red"], r["green"], r["blue"]) for r in rows}, {("231", "170", "124")})
+        self.assertFalse([name for name in rows[0] if name.startswith("sh_")])
+        self.assertFalse([c for c in comments if c.startswith("shbake ")])
+
+    def test_relighting_leaves_the_transfer_as_it_was(self):
+        self.ok("relight", "box.ply", "--light", "clear", "-o", "lit.ply")
+        self.ok("relight", "lit.ply", "--light", "overcast", "-o", "again.ply")
+        same = json.loads(self.ok("compare", "again.ply", "box.ply", "--json", "-").stdout)
+        self.assertEqual(same["difference"]["rms"], 0)
+
+    def test_a_light_file_an_image_and_a_sky_shine_alike(self):
+        self.ok("light", "--sky", "clear", "--sun", "30,120", "--order", "4", "-o", "sky.shlight")
+        colors = []
+        for light in (["sky.shlight"], ["clear", "--sun", "30,120"]):
+            self.ok("relight", "box.ply", "--light", *light, "--colors", "floats", "--ascii", "-o", "lit.ply")
+            colors.append([row["green"] for row in read_ascii_ply(self.folder / "lit.ply")[1]])
+        self.assertEqual(*colors)
+        self.ok("render", "--light", "clear", "--sun", "30,120", "--exposure", "0", "--size", "16x256", "--captions",
+                "none", "-o", "both.exr")
+
+    def test_ringing_is_told_and_windowed(self):
+        sun = ["relight", "box.ply", "--light", "overcast", "--zenith", "0", "--sun", "60,0", "--sun-irradiance", "3"]
+        report = json.loads(self.ok(*sun, "-o", "lit.ply", "--json", "-").stdout)
+        self.assertLess(report["negative"]["worst"], 0)
+        self.assertGreater(report["negative"]["area_share"], 0)
+        report = json.loads(self.ok(*sun, "--window", "auto", "-o", "lit.ply", "--json", "-").stdout)
+        self.assertGreaterEqual(report["negative"]["worst"], -1e-6)
+
+    def test_pictures_have_the_size_and_colour_asked_for(self):
+        # Under white light every face has one radiance: the albedo.
+        self.ok("render", "box.ply", "--light", "white", "--exposure", "0", "--view", "top", "--size", "90x60",
+                "--background", "0,0,1", "-o", "top.png")
+        width, height, rows = read_png(self.folder / "top.png")
+        self.assertEqual((width, height), (90, 60))
+        self.assertEqual(tuple(rows[30][135:138]), (231, 170, 124))
+        self.assertEqual(tuple(rows[1][:3]), (0, 0, 255))
+
+    def test_several_files_stand_side_by_side(self):
+        self.ok("render", "box.ply", "box.ply", "-o", "two.png", "--size", "90x60", "--captions", "none")
+        width, height, rows = read_png(self.folder / "two.png")
+        self.assertEqual((width, height), (181, 60))
+        self.assertTrue(all(row[:270] == row[273:] for row in rows))
+
+    def test_a_turntable_is_a_full_turn(self):
+        self.ok("render", "box.ply", "--light", "white", "--view", "front", "-o", "turn.png", "--turntable", "4", "--size",
+                "64x64")
+        frames = sorted(p.name for p in self.folder.glob("turn*"))
+        self.assertEqual(frames, [f"turn_{i:04}.png" for i in (1, 2, 3, 4)])
+        # The box on its floor looks the same from all four sides.
+        pictures = [read_png(self.folder / f)[2] for f in frames]
+        for picture in pictures[1:]:
+            differing = sum(a != b for ra, rb in zip(picture, pictures[0]) for a, b in zip(ra, rb))
+            self.assertLess(differing, 64 * 64 * 3 // 50)
+        self.ok("render", "box.ply", "--view", "front", "-o", "light.png", "--turntable", "4", "--turn", "light",
+                "--light", "clear", "--size", "64x64")
+        self.assertNotEqual(read_png(self.folder / "light_0001.png"), read_png(self.folder / "light_0002.png"))
+
+    def test_output_does_not_depend_on_threads(self):
+        for verb, out in (("render", "a.png"), ("render", "a.exr"), ("relight", "a.ply")):
+            seen = set()
+            for threads in (1, 3):
+                self.ok(verb, "box.ply", "--light", "clear", "-o", out, "--threads", threads)
+                seen.add((self.folder / out).read_bytes())
+            self.assertEqual(len(seen), 1, out)
+
+    def test_wrong_usage_is_told_in_one_line(self):
+        cases = [
+            (["relight"], 2, "no baked file"),
+            (["relight", "box.ply"], 2, "no output"),
+            (["relight", "box.ply", "-o", "box.ply"], 2, "--force"),
+            (["relight", "box.obj", "-o", "lit.ply"], 1, "box.obj"),
+            (["relight", "box.ply", "--light", "missing.exr", "-o", "lit.ply"], 1, "missing.exr"),
+            (["relight", "box.ply", "--zenith", "-1", "-o", "lit.ply"], 2, "--zenith"),
+            (["render", "box.ply"], 2, "no output"),
+            (["render", "box.ply", "-o", "a.gif"], 2, ".png or .exr"),
+            (["render", "box.ply", "-o", "a.png", "--view", "frnt"], 2, "front"),
+            (["render", "box.ply", "-o", "a.png", "--size", "64"], 2, "WIDTHxHEIGHT"),
+            (["render", "box.ply", "-o", "a.png", "--view", "0,95"], 2, "elevation"),
+            (["render", "box.ply", "-o", "a.png", "--captions", "a,b"], 2, "captions"),
+            (["render", "-o", "a.png", "--turntable", "3"], 2, "--turntable"),
+        ]
+        for arguments, code, part in cases:
+            with self.subTest(" ".join(arguments)):
+                result = self.run_program(*arguments)
+                self.assertEqual(result.returncode, code, result.stderr)
+                self.assertRegex(result.stderr, r"\Ashbake: [^\n]+\n\Z")
+                self.assertIn(part, result.stderr)
+                self.assertFalse(list(self.folder.glob("a.*")) + list(self.folder.glob("lit*")))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[2:], verbosity=1)
