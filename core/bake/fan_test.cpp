@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 namespace shbake {
 namespace {
@@ -73,9 +74,13 @@ bool FanTest::chooseStart(std::uint32_t p, const Vec3d& normal, Vec3d& start) co
     const Vec3d a = edges_[static_cast<std::size_t>(arc.from)].direction;
     const Vec3d b = edges_[static_cast<std::size_t>(arc.to)].direction;
     const Vec3d n = normalized(cross(a, b));
-    if (!(isOwn(arc.face, p) || isOwn(arc.back, p)) || dot(a, b) >= least || n == Vec3d{}) continue;
-    least = dot(a, b);
-    start = normalized(normalized(a + b) + n * (dot(n, normal) < 0 ? -kStartHeight : kStartHeight));
+    const double cosine = dot(a, b);
+    if (!(isOwn(arc.face, p) || isOwn(arc.back, p)) || cosine > least || n == Vec3d{}) continue;
+    const Vec3d above = normalized(normalized(a + b) + n * (dot(n, normal) < 0 ? -kStartHeight : kStartHeight));
+    // Sectors of one width are common (the two halves of a square's corner): not the order of faces decides.
+    if (cosine == least && std::tie(above.x, above.y, above.z) > std::tie(start.x, start.y, start.z)) continue;
+    least = cosine;
+    start = above;
   }
   return least < 2;
 }
