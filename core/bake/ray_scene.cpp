@@ -11,6 +11,7 @@
 #include <new>
 #include <string>
 
+#include "bake/face_twins.h"
 #include "base/error.h"
 
 #ifdef __SSE__
@@ -27,13 +28,29 @@ constexpr double kContactUlps = 1;
 constexpr float kNearUlps = 0.5f;
 /// Float hit distances are off by a few ulp of the coordinate scale; hits that seem farther from contact than this are.
 constexpr double kSuspectUlps = 16;
+/// Rounding of the product of normal and distance of a face that the origin lies on, in units of its edge length cubed:
+/// differences of coordinates carry one half ulp, a cross and a scalar product three each, sqrt(3) times as sums of
+/// absolute values. Of slivers, whose normal is short, this is far more than the suspect distance.
+constexpr double kProductRounding = 16 * 0x1p-24;
 
 /// What the filter needs beside the ray and the hit.
 struct FilterData {
   const Triangle* faces = nullptr;
   const Vec3f* positions = nullptr;
   double contact = 0, suspect = 0;  // distances to a plane, in work units
+  double product = 0;               // error of such a distance times twice a face's area
 };
+
+float longestEdge(const LightingPoints& points) {
+  float longest2 = 0;
+  for (const Triangle& t : points.faces) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3f edge = points.positions[t[k]] - points.positions[t[(k + 1) % 3]];
+      longest2 = std::max(longest2, dot(edge, edge));
+    }
+  }
+  return std::sqrt(longest2);
+}
 
 /// Whether `origin` lies on the plane of a face but for the rounding of coordinates. Exact to double.
 bool inContact(const FilterData& data, const Triangle& t, const Vec3f& origin) {
@@ -54,8 +71,9 @@ void leaveOutOwnFaces(const RTCFilterFunctionNArguments* args) {
         Vec3f(RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i), RTCHitN_Ng_z(args->hit, n, i)));
     const Vec3d direction(
         Vec3f(RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i), RTCRayN_dir_z(args->ray, n, i)));
-    const double height = dot(normal, direction) * static_cast<double>(RTCRayN_tfar(args->ray, n, i));
-    if (height * height > data.suspect * data.suspect * dot(normal, normal)) continue;
+    const double height = std::abs(dot(normal, direction) * static_cast<double>(RTCRayN_tfar(args->ray, n, i)));
+    const double beyond = height - data.product;
+    if (beyond > 0 && beyond * beyond > data.suspect * data.suspect * dot(normal, normal)) continue;
     const Triangle& t = data.faces[RTCHitN_primID(args->hit, n, i)];
     const unsigned position = RTCRayN_id(args->ray, n, i);
     const bool shared = t[0] == position || t[1] == position || t[2] == position;
@@ -65,6 +83,16 @@ void leaveOutOwnFaces(const RTCFilterFunctionNArguments* args) {
 
 std::uint16_t quantise(float weight) {
   return static_cast<std::uint16_t>(std::clamp(weight, 0.0f, 1.0f) * 65535.0f + 0.5f);
+}
+
+/// The same place on a face with the same corners in another order.
+Hit onTwin(const std::vector<Triangle>& faces, const Hit& hit, std::uint32_t twin) {
+  const Triangle &from = faces[hit.face], &to = faces[twin];
+  const auto rest = static_cast<std::uint16_t>(std::max(0, 65535 - hit.u - hit.v));
+  const auto weight = [&](std::uint32_t position) {
+    return position == from[1] ? hit.u : position == from[2] ? hit.v : rest;
+  };
+  return {twin, weight(to[1]), weight(to[2])};
 }
 
 [[noreturn]] void fail(RTCError code, const char* text) {
@@ -80,6 +108,7 @@ struct RayScene::State {
   RTCScene scene = nullptr;
   const LightingPoints* points = nullptr;
   std::vector<Vec3f> positions;  // with the padding that Embree reads past the end
+  std::vector<std::uint32_t> twins;
   FilterData filter;
   float near = 0, far = 0;
   bool packets = false;  // 16-wide packets are native; the stream is faster elsewhere
@@ -121,7 +150,10 @@ RayScene::RayScene(const LightingPoints& points, float maxDistance, int threads,
   s.positions = points.positions;
   s.positions.emplace_back();
   s.filter = {points.faces.data(), s.positions.data(), kContactUlps * FLT_EPSILON * static_cast<double>(scale),
-              kSuspectUlps * FLT_EPSILON * static_cast<double>(scale)};
+              kSuspectUlps * FLT_EPSILON * static_cast<double>(scale),
+              kProductRounding * std::pow(static_cast<double>(longestEdge(points)), 3)};
+
+  s.twins = faceTwins(points);
 
   const FlushDenormals flush;
   s.device = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
@@ -252,8 +284,10 @@ void RayScene::closest(const Rays& rays, Buffers& buffers, std::uint16_t* hit, s
   const auto take = [&](std::size_t k, unsigned face, float u, float v, float towards) {
     const auto bit = static_cast<std::uint16_t>(1u << (k % 16));
     hit[k / 16] |= bit;
-    if (towards < 0) front[k / 16] |= bit;
     hits[k] = {face, quantise(u), quantise(v)};
+    const bool isTwin = towards > 0 && !s.twins.empty() && s.twins[face] != LightingPoints::kNone;
+    if (isTwin) hits[k] = onTwin(s.points->faces, hits[k], s.twins[face]);
+    if (towards < 0 || isTwin) front[k / 16] |= bit;
   };
   if (!s.packets) {
     const unsigned n = fillStream(buffers.hitStream, buffers.slot, rays, origin, s.near, s.far);

@@ -51,7 +51,7 @@ class RayScene {
   void occluded(const Rays& rays, Buffers& buffers, std::uint16_t* hit) const;
 
   /// Finds the nearest hits: sets bits in hit[g], the bits of those that met a face's front in front[g], and hits[g *
-  /// 16 + i].
+  /// 16 + i]. Of two coincident faces wound against each other, the one whose front is met is hit (face_twins.h).
   void closest(const Rays& rays, Buffers& buffers, std::uint16_t* hit, std::uint16_t* front, Hit* hits) const;
 
  private:
