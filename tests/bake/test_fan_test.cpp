@@ -41,7 +41,8 @@ void ask(const LightingPoints& points, std::uint32_t p, int groups, Count& count
   judge.setPoint(p);
   FanTest test(points);
   test.setPoint(p);
-  const bool rises = judge.fanHeight() > 1e-6;
+  // The oracle takes the first of several widest faces, and does not leave out fans below the tangent plane.
+  const bool comparable = judge.fanHeight() > 1e-6 && judge.startIsUnique();
   for (int g = 0; g < groups; ++g) {
     float x[16], y[16], z[16];
     std::uint32_t faces[16];
@@ -65,7 +66,7 @@ void ask(const LightingPoints& points, std::uint32_t p, int groups, Count& count
         continue;
       }
       count.wrong += blocked != (expected == Sees::face);
-      if (rises) count.oracleDiffers += (expected == Sees::face) != oracle::blockedByFan(points, p, d[i]);
+      if (comparable) count.oracleDiffers += (expected == Sees::face) != oracle::blockedByFan(points, p, d[i]);
       // Above its height the fan gives one answer.
       if (dot(d[i], Vec3d(points.pointNormal[p])) >= double(test.height())) {
         count.aboveHeight += blocked != test.blocksZenith();

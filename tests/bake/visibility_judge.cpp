@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace shbake::testing {
@@ -41,7 +42,7 @@ void VisibilityJudge::collectFan(std::uint32_t point) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> known;
   arcs_.clear();
   hasStart_ = false;
-  double widest = 0;
+  double least = 2;  // cosine of the widest sector
   for (std::size_t f = 0; f < points_.faces.size(); ++f) {
     const Triangle& face = points_.faces[f];
     const auto at = static_cast<std::size_t>(std::find(face.begin(), face.end(), position) - face.begin());
@@ -51,11 +52,15 @@ void VisibilityJudge::collectFan(std::uint32_t point) {
                 b = normalized(Vec3d(points_.positions[j]) - origin_);
     const Vec3d plane = normalized(cross(a, b));
     if (known.insert(std::minmax(i, j)).second) arcs_.push_back({a, b, plane});
-    const double sector = std::atan2(length(cross(a, b)), dot(a, b));
-    if (points_.facePoints[f][at] != point || plane == Vec3d() || sector <= widest) continue;
-    widest = sector;
+    const double cosine = dot(a, b);
+    if (points_.facePoints[f][at] != point || plane == Vec3d() || cosine > least) continue;
+    const Vec3d above = normalized(normalized(a + b) + plane * (dot(plane, n) < 0 ? -1e-6 : 1e-6));
+    startIsUnique_ = cosine < least;
+    // Of sectors of one width, the start that is least by coordinates: a rule that no order of faces changes.
+    if (!startIsUnique_ && std::tie(above.x, above.y, above.z) > std::tie(start_.x, start_.y, start_.z)) continue;
+    least = cosine;
     hasStart_ = true;
-    start_ = normalized(normalized(a + b) + plane * (dot(plane, n) < 0 ? -1e-6 : 1e-6));
+    start_ = above;
   }
 }
 

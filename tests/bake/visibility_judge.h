@@ -40,6 +40,8 @@ class VisibilityJudge {
 
   /// The greatest n.d over the arcs of the fan, at least 0.
   double fanHeight() const { return height_; }
+  /// Whether one own face is wider than all others: elsewhere the one-sided rule has a choice.
+  bool startIsUnique() const { return startIsUnique_; }
 
   static constexpr double kMargin = 20 * 0x1p-24;
 
@@ -57,7 +59,7 @@ class VisibilityJudge {
   Vec3d origin_;
   std::vector<std::uint32_t> beyond_;  // faces that do not touch the position
   std::vector<Arc> arcs_;
-  bool hasStart_ = false;
+  bool hasStart_ = false, startIsUnique_ = false;
   Vec3d start_;
   double height_ = 0;
 };
