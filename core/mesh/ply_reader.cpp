@@ -123,7 +123,8 @@ class MeshBuilder {
   }
 
   std::uint32_t checkedIndex(std::uint64_t item, std::int64_t index) const {
-    if (index < 0 || static_cast<std::uint64_t>(index) >= vertices_->count) {
+    // A negative index becomes a huge one.
+    if (static_cast<std::uint64_t>(index) >= vertices_->count) {
       fail(plyItemName(*faces_, item),
            "refers to vertex " + std::to_string(index) + ", but there are " + std::to_string(vertices_->count) +
                " vertices, counted from 0",

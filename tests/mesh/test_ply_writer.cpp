@@ -101,6 +101,13 @@ TEST_CASE("PLY writer: colours that no property holds are written as what they a
     CHECK(back.faceColorEncoding == ColorEncoding::linear);
     CHECK(findColumn(back.vertexProperties, "green")->type == ScalarType::uint8);
   }
+  SECTION("display values between two bytes are rounded, those outside are clamped") {
+    mesh.vertexColors = {{0.5f, 0.4999f, 1.0f / 600}, {-1, 2, 0.1f}, {0, 0, 0}};
+    writePly(path, mesh, {PlyEncoding::ascii}, progress);
+    const Mesh back = readPly(path, progress);
+    CHECK(back.vertexColors[0] == Rgb(128 / 255.0f, 127 / 255.0f, 0));
+    CHECK(back.vertexColors[1] == Rgb(0, 1, 26 / 255.0f));
+  }
   SECTION("all 8-bit values survive") {
     mesh.positions.assign(256, Vec3d());
     mesh.vertexColors.clear();

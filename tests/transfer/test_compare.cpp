@@ -96,6 +96,19 @@ TEST_CASE("Compare: the mean weighs vertices by their area") {
   CHECK(c.worstVertex == 0);
   CHECK(c.worstError == Approx(0.3).epsilon(1e-5));
 
+  SECTION("and a vertex stands for all its faces") {
+    // A square of two triangles: corners 0 and 2 have both, 1 and 3 one of them.
+    for (BakedPly* square : {&a, &b}) {
+      square->mesh.positions.resize(4);
+      square->mesh.positions[2] = {1, 1, 0};
+      square->mesh.positions[3] = {0, 1, 0};
+      square->mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+      square->mesh.vertexNormals.resize(4);
+      square->transfer.coefficients.assign(4, open);
+    }
+    a.transfer.coefficients = {open * 1.2f, open * 1.1f, open, open};
+    CHECK(compareTransfer(a, b).rmsError == Approx(std::sqrt((2 * 0.04 + 0.01) / 6)).epsilon(1e-5));
+  }
   SECTION("and is the same at any scale and place") {
     for (const double scale : {1e-6, 1e6}) {
       BakedPly movedA = a, movedB = b;
