@@ -136,7 +136,9 @@ class Usage(ProgramTest):
     def test_help_of_every_verb_tells_defaults_and_fits_80_columns(self):
         verbs = re.findall(r"^  (\w+)  +\w", self.run_program("--help").stdout, re.M)
         self.assertIn("bake", verbs)
-        without_default = {"--help", "--output", "--json", "--blockers"}
+        # What these name or add is absent unless they are given.
+        without_default = {"--help", "--output", "--json", "--blockers", "--disc", "--parallel", "--constant",
+                           "--gradient", "--turn", "--shadow", "--multiply", "--at"}
         for verb in verbs:
             with self.subTest(verb):
                 result = self.run_program(verb, "--help")
