@@ -130,6 +130,10 @@ void warn(BakedMesh& result, const PointBake& baked, const LightingPoints& point
 BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshOptions& options,
                    const Parallel& parallel, Progress& progress) {
   validate(options.bake);
+  // Among blockers, nobody else would notice.
+  if (mesh.triangles.empty()) {
+    throw Error({.file = mesh.source, .cause = "the mesh has no faces", .remedy = "light is baked for surfaces only"});
+  }
   BakedMesh result;
 
   // Albedo: of the mesh and of what stands around it.
