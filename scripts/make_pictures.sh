@@ -1,0 +1,42 @@
+#!/bin/sh
+# Bakes scenes of samples/scenes and draws the pictures of docs/images.
+#
+# Usage: scripts/make_pictures.sh [PROGRAM [FOLDER]]    PROGRAM: shbake; FOLDER: where the pictures go
+set -eu
+root=$(cd "$(dirname "$0")/.." && pwd)
+shbake=${1:-$root/shbake}
+images=${2:-$root/docs/images}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir -p "$images"
+cp "$root"/samples/scenes/*.mtl "$work"
+
+# divide SCENE TIMES: a copy of the scene with more vertices on its flat parts.
+divide() {
+  python3 "$root/scripts/divide_flat_parts.py" "$root/samples/scenes/$1.obj" "$work/$1.obj" "$2"
+}
+
+# draw3 SCENE OPTIONS...: the three kinds of transfer side by side, as SCENE.png.
+draw3() {
+  scene=$1
+  shift
+  "$shbake" bake -q "$work/$scene.obj" -o "$work/a.ply" --order 8 --transfer unshadowed
+  "$shbake" bake -q "$work/$scene.obj" -o "$work/b.ply" --order 8 --transfer shadowed
+  "$shbake" bake -q "$work/$scene.obj" -o "$work/c.ply" --order 8
+  "$shbake" render -q "$work/a.ply" "$work/b.ply" "$work/c.ply" -o "$images/$scene.png" "$@"
+}
+
+divide room 3
+draw3 room --light overcast --zenith 0.5,0.62,0.8 --ground 0.25 --sun 42,200 --sun-irradiance 5,4.5,3.8 --window hann \
+  --view 180,3 --fov 45 --size 420x400
+
+divide columns 3
+draw3 columns --light overcast --zenith 0.35,0.5,0.75 --ground 0.2 --sun 45,245 --sun-irradiance 6,5.3,4.4 \
+  --window lanczos --size 420x460
+
+divide city 2
+"$shbake" bake -q "$work/city.obj" -o "$work/city.ply" --order 8
+"$shbake" render -q "$work/city.ply" -o "$images/city.png" --light overcast --zenith 0.35,0.5,0.75 --ground 0.2 \
+  --sun 32,245 --sun-irradiance 6,5.3,4.4 --window lanczos --view 190,28 --size 900x480
+
+"$shbake" render -q -o "$images/light.png" --light clear --sun 30,90 --ground 0.2 --order 5 --size 600x300 --exposure -2
