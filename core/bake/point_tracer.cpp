@@ -1,6 +1,7 @@
 #include "bake/point_tracer.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <numbers>
 
@@ -25,9 +26,6 @@ PointTracer::PointTracer(const LightingPoints& points, const RayScene& scene, co
       twoSided_(twoSided),
       fan_(points),
       buffers_(scene.makeBuffers()),
-      x_(kChunk * kGroup),
-      y_(kChunk * kGroup),
-      z_(kChunk * kGroup),
       fanFaces_(kChunk * kGroup),
       fanMask_(kChunk),
       active_(kChunk),
@@ -39,27 +37,17 @@ double PointTracer::spin(std::uint32_t point) const {
   return 2 * std::numbers::pi * hashUnit(seed_, point);
 }
 
-void PointTracer::turnDirections(int firstGroup, int groups) {
-  const std::size_t first = static_cast<std::size_t>(firstGroup) * kGroup,
-                    n = static_cast<std::size_t>(groups) * kGroup;
-  const float *lx = directions_.x() + first, *ly = directions_.y() + first, *lz = directions_.z() + first;
-  float *x = x_.data(), *y = y_.data(), *z = z_.data();
-  const Vec3f a = axisX_, b = axisY_, c = axisZ_;
-  for (std::size_t i = 0; i < n; ++i) {
-    x[i] = a.x * lx[i] + b.x * ly[i] + c.x * lz[i];
-    y[i] = a.y * lx[i] + b.y * ly[i] + c.y * lz[i];
-    z[i] = a.z * lx[i] + b.z * ly[i] + c.z * lz[i];
-  }
-}
-
-void PointTracer::testFan(int firstGroup, int groups) {
-  for (int g = 0; g < groups; ++g) {
+void PointTracer::testFan(const RayScene::Rays& rays, int firstGroup) {
+  for (int g = 0; g < rays.groups; ++g) {
     const auto i = static_cast<std::size_t>(g);
     // Groups above the whole fan need no test, unless their answer is "blocked" and asks for a face.
     const bool above = directions_.lowestZ(firstGroup + g) >= fan_.height() && !fan_.blocksZenith();
-    const std::size_t k = i * kGroup;
-    fanMask_[i] =
-        above ? std::uint16_t(0) : static_cast<std::uint16_t>(fan_.blocked(&x_[k], &y_[k], &z_[k], &fanFaces_[k]));
+    fanMask_[i] = 0;
+    if (!above) {
+      std::array<float, kGroup> x, y, z;
+      rays.turn(g, x.data(), y.data(), z.data());
+      fanMask_[i] = static_cast<std::uint16_t>(fan_.blocked(x.data(), y.data(), z.data(), &fanFaces_[i * kGroup]));
+    }
     active_[i] = static_cast<std::uint16_t>(kAll & ~fanMask_[i]);
   }
 }
@@ -74,15 +62,21 @@ template <class Trace>
 void PointTracer::forChunks(std::uint32_t point, std::span<std::uint16_t> sky, const Trace& trace) {
   const Vec3d normal(points_.pointNormal[point]);
   const sh::LocalFrame frame = sh::localFrame(normal, spin(point));
-  axisX_ = Vec3f(frame.x);
-  axisY_ = Vec3f(frame.y);
-  axisZ_ = Vec3f(frame.z);
   fan_.setPoint(point);
   for (int first = 0; first < directions_.groups(); first += kChunk) {
     const int groups = std::min(kChunk, directions_.groups() - first);
-    turnDirections(first, groups);
-    testFan(first, groups);
-    trace(RayScene::Rays{points_.pointPosition[point], groups, x_.data(), y_.data(), z_.data(), active_.data()});
+    const std::size_t ray = static_cast<std::size_t>(first) * kGroup;
+    const RayScene::Rays rays{points_.pointPosition[point],
+                              groups,
+                              directions_.x() + ray,
+                              directions_.y() + ray,
+                              directions_.z() + ray,
+                              Vec3f(frame.x),
+                              Vec3f(frame.y),
+                              Vec3f(frame.z),
+                              active_.data()};
+    testFan(rays, first);
+    trace(rays);
     for (int g = 0; g < groups; ++g) {
       const auto i = static_cast<std::size_t>(g);
       sky[static_cast<std::size_t>(first + g)] = static_cast<std::uint16_t>(kAll & ~(fanMask_[i] | blocked_[i]));

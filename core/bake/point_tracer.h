@@ -32,8 +32,7 @@ class PointTracer {
  private:
   template <class Trace>
   void forChunks(std::uint32_t point, std::span<std::uint16_t> sky, const Trace& trace);
-  void turnDirections(int firstGroup, int groups);
-  void testFan(int firstGroup, int groups);
+  void testFan(const RayScene::Rays& rays, int firstGroup);
   Hit hitOnFan(std::uint32_t face, std::uint32_t position) const;
 
   const LightingPoints& points_;
@@ -43,8 +42,6 @@ class PointTracer {
   bool twoSided_;
   FanTest fan_;
   RayScene::BuffersPtr buffers_;
-  Vec3f axisX_, axisY_, axisZ_;
-  std::vector<float> x_, y_, z_;
   std::vector<std::uint32_t> fanFaces_;
   std::vector<std::uint16_t> fanMask_, active_, blocked_, front_;
   std::vector<Hit> chunkHits_;

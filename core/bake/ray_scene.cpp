@@ -7,6 +7,8 @@
 #include <bit>
 #include <cfloat>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 #include <new>
 #include <string>
@@ -207,16 +209,6 @@ void setCommon(Packet& r, unsigned i, const Vec3f& origin, float near, std::uint
   r.flags[i] = 0;
 }
 
-void setDirections(RTCRay16& r, const RayScene::Rays& rays, int group, float far) {
-  for (unsigned i = 0; i < 16; ++i) {
-    const std::size_t k = static_cast<std::size_t>(group) * 16 + i;
-    r.dir_x[i] = rays.x[k];
-    r.dir_y[i] = rays.y[k];
-    r.dir_z[i] = rays.z[k];
-    r.tfar[i] = far;
-  }
-}
-
 std::array<int, 16> laneFlags(std::uint16_t active) {
   std::array<int, 16> valid;
   for (unsigned i = 0; i < 16; ++i) valid[i] = (active >> i & 1) != 0 ? -1 : 0;
@@ -230,16 +222,27 @@ RTCRay& rayOf(RTCRayHit& entry) {
   return entry.ray;
 }
 
+/// A third of an RTCRay: origin and near distance; direction and time; far distance, mask, id and flags.
+using Quad [[gnu::vector_size(16)]] = float;
+static_assert(offsetof(RTCRay, dir_x) == sizeof(Quad) && offsetof(RTCRay, tfar) == 2 * sizeof(Quad));
+
 /// Fills a stream with the active rays; returns how many there are.
 template <class Stream, class Slots>
 unsigned fillStream(Stream& stream, Slots& slots, const RayScene::Rays& rays, const Vec3f& origin, float near,
                     float far) {
+  const auto quad = [](const Vec3f& v, float w) { return Quad{v.x, v.y, v.z, w}; };
+  const Quad x = quad(rays.axisX, 0), y = quad(rays.axisY, 0), z = quad(rays.axisZ, 0);
+  const Quad head = quad(origin, near);
+  const Quad tail{far, std::bit_cast<float>(~0u), std::bit_cast<float>(rays.position), 0};
   unsigned n = 0;
   for (int g = 0; g < rays.groups; ++g) {
     for (unsigned bits = rays.active[g]; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::size_t>(g) * 16 + static_cast<unsigned>(std::countr_zero(bits));
-      rayOf(stream[n]) = {origin.x,  origin.y, origin.z, near, rays.x[k],     rays.y[k],
-                          rays.z[k], 0,        far,      ~0u,  rays.position, 0};
+      RTCRay& ray = rayOf(stream[n]);
+      const Quad direction = x * rays.x[k] + y * rays.y[k] + z * rays.z[k];
+      std::memcpy(&ray.org_x, &head, sizeof head);
+      std::memcpy(&ray.dir_x, &direction, sizeof direction);
+      std::memcpy(&ray.tfar, &tail, sizeof tail);
       slots[n++] = static_cast<std::uint16_t>(k);
     }
   }
@@ -247,6 +250,16 @@ unsigned fillStream(Stream& stream, Slots& slots, const RayScene::Rays& rays, co
 }
 
 }  // namespace
+
+void RayScene::Rays::turn(int group, float* worldX, float* worldY, float* worldZ) const {
+  const std::size_t first = static_cast<std::size_t>(group) * 16;
+  for (std::size_t i = 0; i < 16; ++i) {
+    const float lx = x[first + i], ly = y[first + i], lz = z[first + i];
+    worldX[i] = axisX.x * lx + axisY.x * ly + axisZ.x * lz;
+    worldY[i] = axisX.y * lx + axisY.y * ly + axisZ.y * lz;
+    worldZ[i] = axisX.z * lx + axisY.z * ly + axisZ.z * lz;
+  }
+}
 
 void RayScene::occluded(const Rays& rays, Buffers& buffers, std::uint16_t* hit) const {
   const State& s = *state_;
@@ -267,7 +280,8 @@ void RayScene::occluded(const Rays& rays, Buffers& buffers, std::uint16_t* hit) 
   for (unsigned i = 0; i < 16; ++i) setCommon(r, i, origin, s.near, rays.position);
   for (int g = 0; g < rays.groups; ++g) {
     if (rays.active[g] == 0) continue;
-    setDirections(r, rays, g, s.far);
+    rays.turn(g, r.dir_x, r.dir_y, r.dir_z);
+    std::fill_n(r.tfar, 16, s.far);
     alignas(64) const auto valid = laneFlags(rays.active[g]);
     rtcOccluded16(valid.data(), s.scene, &context, &r);
     for (unsigned i = 0; i < 16; ++i) hit[g] |= static_cast<std::uint16_t>((r.tfar[i] < 0) << i);
@@ -306,7 +320,8 @@ void RayScene::closest(const Rays& rays, Buffers& buffers, std::uint16_t* hit, s
   for (unsigned i = 0; i < 16; ++i) setCommon(r, i, origin, s.near, rays.position);
   for (int g = 0; g < rays.groups; ++g) {
     if (rays.active[g] == 0) continue;
-    setDirections(r, rays, g, s.far);
+    rays.turn(g, r.dir_x, r.dir_y, r.dir_z);
+    std::fill_n(r.tfar, 16, s.far);
     std::fill_n(h.geomID, 16, RTC_INVALID_GEOMETRY_ID);
     alignas(64) const auto valid = laneFlags(rays.active[g]);
     rtcIntersect16(valid.data(), s.scene, &context, &buffers.packet);

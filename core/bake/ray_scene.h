@@ -31,12 +31,16 @@ class RayScene {
   RayScene(const LightingPoints& points, float maxDistance, int threads, Progress& progress);
   ~RayScene();
 
-  /// Rays from one position: unit directions in world axes, in groups of 16.
+  /// Rays from one position, in groups of 16: directions in a local frame and its axes in the world.
   struct Rays {
     std::uint32_t position;       // position id: origin and what to leave out
     int groups;                   // 1..kMaxGroups
-    const float *x, *y, *z;       // groups * 16 components each
+    const float *x, *y, *z;       // groups * 16 components each, local unit directions
+    Vec3f axisX, axisY, axisZ;    // orthonormal
     const std::uint16_t* active;  // a mask for each group: only these rays are traced
+
+    /// The world directions of a group.
+    void turn(int group, float* worldX, float* worldY, float* worldZ) const;
   };
 
   /// Space for one thread's rays. Make one for each worker.

@@ -89,6 +89,16 @@ TransferSet expand(const TransferSet& baked, const LightingPoints& points, const
   return out;
 }
 
+AlbedoFacts describe(const Albedo& albedo, const AlbedoOptions& options) {
+  AlbedoFacts facts;
+  facts.origin = albedo.per == Albedo::Per::mesh     ? AlbedoOrigin::uniform
+                 : albedo.per == Albedo::Per::vertex ? AlbedoOrigin::vertexColors
+                                                     : AlbedoOrigin::faceColors;
+  if (albedo.per == Albedo::Per::mesh) facts.uniform = albedo.values[0];
+  facts.bytesAreLinear = options.bytesAreLinear;
+  return facts;
+}
+
 TransferFacts describe(const PointBake& baked, const BakeOptions& options) {
   TransferFacts facts;
   facts.version = SHBAKE_VERSION;
@@ -168,6 +178,7 @@ BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshO
   // Back to the mesh.
   result.transfer = expand(baked.transfer, points, outputs);
   result.facts = describe(baked, options.bake);
+  result.facts.albedo = describe(albedo.albedo, options.albedo);
   result.facts.lightingPoints = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 1));
   result.facts.sourceVertices = vertices;
   result.facts.source = std::filesystem::path(mesh.source).filename().string();

@@ -222,7 +222,8 @@ TEST_CASE("contact is judged by the distance to the plane: grazing rays pass, ne
     }
     const std::uint16_t active = 0xFFFF;
     std::uint16_t hit = 0;
-    scene.occluded({position, 1, x.data(), y.data(), z.data(), &active}, *buffers, &hit);
+    scene.occluded({position, 1, x.data(), y.data(), z.data(), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, &active}, *buffers,
+                   &hit);
     INFO(ulps << " ulp");
     CHECK(hit == (ulps > 1 ? 0xFFFF : 0));
   }
