@@ -123,6 +123,10 @@ ViewLight ViewLightOptions::makeSky(int order) const {
 ViewLight ViewLightOptions::readImage(int order, Session& session) const {
   const EnvironmentMapLight map = projectEnvironmentMap(name, order, {}, session.parallel, session.progress);
   for (const std::string& note : map.notes) session.warn(name + ": " + note);
+  if (map.badPixels.total() > 0) {
+    session.warn(name + ": " + formatCount(map.badPixels.total()) +
+                 " pixels are negative or not finite; 'shbake light' tells which and how they count");
+  }
   ViewLight view;
   view.light = map.light;
   view.description = name + " (" + layoutName(map.layout) + ")";
