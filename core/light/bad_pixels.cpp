@@ -32,7 +32,7 @@ void BadPixels::add(const BadPixels& later) {
 BadPixels repairRow(std::span<Rgb> row, int y, float mostFinite, bool keepNegative) {
   BadPixels found;
   // One pass without branches decides whether anything is wrong, which is nearly never so.
-  const auto isBad = [](float v) { return static_cast<int>(!(v >= 0 && v < INFINITY)); };
+  const auto isBad = [](float v) { return static_cast<int>(!(v >= 0)) | static_cast<int>(!(v < INFINITY)); };
   int bad = 0;
   for (const Rgb& p : row) bad |= isBad(p.x) | isBad(p.y) | isBad(p.z);
   if (bad == 0) return found;

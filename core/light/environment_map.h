@@ -39,10 +39,10 @@ struct EnvironmentMapLight {
   std::vector<std::string> notes;  ///< what was assumed, one sentence each
 };
 
-/// Projects an image file. Pixels are read once, from top to bottom, and about 64 MB are held at a time. Each pixel
-/// is an even patch of the sphere, integrated in double precision (MapProjector); nothing is clamped but what
-/// BadPixels counts. Throws an Error: usage for an order out of 1..kMaxLightOrder, work for a file that cannot be read
-/// or whose shape does not fit the layout, cancelled.
+/// Projects an image file. Pixels are read once, from top to bottom, and about 16 MB (more where a row of tiles is
+/// larger) are held at a time. Each pixel is an even patch of the sphere, integrated in double precision
+/// (MapProjector); nothing is clamped but what BadPixels counts. Throws an Error: usage for an order out
+/// of 1..kMaxLightOrder, work for a file that cannot be read or whose shape does not fit the layout, cancelled.
 EnvironmentMapLight projectEnvironmentMap(const std::string& path, int order, const EnvironmentMapOptions& options,
                                           const Parallel& parallel, Progress& progress);
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "base/error.h"
 #include "light/quadrature_size.h"
@@ -18,7 +19,7 @@ using std::numbers::pi;
 
 constexpr int kStripRows = 8;
 constexpr int kBlock = 256;  ///< columns whose folded colours stay in the first-level cache
-constexpr int kLanes = 4;    ///< independent sums: the order of additions is fixed while the compiler may use vectors
+constexpr int kLanes = 8;    ///< independent sums: the order of additions is fixed while the compiler may use vectors
 
 /// Colours of a block of columns and their half-turn partners: sums meet even m, differences odd m.
 struct Folded {
@@ -45,16 +46,18 @@ struct Folded {
   }
 };
 
-/// The sums over a block of factor * colour, all three channels.
-Vec3d weightedSum(const double* factors, const std::array<std::array<double, kBlock>, 3>& colors, int count) {
-  std::array<std::array<double, kLanes>, 3> sums{};
+/// The sum over a block of factor * value.
+double weightedSum(const double* factors, const std::array<double, kBlock>& values, int count) {
+  std::array<double, kLanes> sums{};
   for (int j = 0; j < count; j += kLanes) {
-    for (int c = 0; c < 3; ++c) {
-      for (int lane = 0; lane < kLanes; ++lane) sums[c][lane] += factors[j + lane] * colors[c][j + lane];
-    }
+    for (int lane = 0; lane < kLanes; ++lane) sums[lane] += factors[j + lane] * values[j + lane];
   }
-  const auto total = [](const std::array<double, kLanes>& s) { return (s[0] + s[1]) + (s[2] + s[3]); };
-  return {total(sums[0]), total(sums[1]), total(sums[2])};
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+Vec3d weightedSum(const double* factors, const std::array<std::array<double, kBlock>, 3>& colors, int count) {
+  return {weightedSum(factors, colors[0], count), weightedSum(factors, colors[1], count),
+          weightedSum(factors, colors[2], count)};
 }
 
 }  // namespace

@@ -227,7 +227,7 @@ TEST_CASE("work on a map can be stopped") {
 }
 
 TEST_CASE("memory does not grow with the map") {
-  // Rows made on demand stand for a file. 4k x 2k pixels fill three chunks; 8k x 4k of them whole would be 400 MB.
+  // Rows made on demand stand for a file. 4k x 2k pixels fill a dozen chunks; 8k x 4k whole would be 400 MB.
   const auto project = [](int height) {
     MapRows rows;
     rows.name = "made on demand";
@@ -241,8 +241,8 @@ TEST_CASE("memory does not grow with the map") {
   const std::size_t before = peakMemory();
   const Light large = project(4096);
   REQUIRE(large.coefficients[0].x == Approx(std::sqrt(4 * kPi)).epsilon(1e-12));
-  // A chunk is the same 32 MB; a few longer rows, and tables of cosines, come to less than this.
-  REQUIRE(peakMemory() - before < std::size_t(24) << 20);
+  // Chunks are the same 8 MB; a few longer rows and tables of cosines come to less than this.
+  REQUIRE(peakMemory() - before < std::size_t(16) << 20);
 }
 
 TEST_CASE("a real lat-long probe agrees with a brute-force sum") {
