@@ -26,7 +26,7 @@ std::vector<std::uint32_t> choosePoints(const LightingPoints& points, std::size_
 std::vector<double> directReference(const LightingPoints& points, const std::vector<std::uint32_t>& chosen, int order,
                                     int rays, const Parallel& parallel) {
   Progress progress;
-  const RayScene scene(points, std::numeric_limits<float>::infinity(), parallel.threads(), progress);
+  const RayScene scene(points, std::numeric_limits<float>::infinity(), parallel, progress);
   const DirectionSet directions(rays, order);
   const auto count = static_cast<std::size_t>(sh::coefficientCount(order));
   std::vector<double> reference(chosen.size() * count);

@@ -85,7 +85,7 @@ class Baker {
 
   void bakeTraced() {
     const float maxDistance = static_cast<float>(options_.maxDistance * points_.frame.scale);
-    const RayScene scene(points_, maxDistance, parallel_.threads(), progress_);
+    const RayScene scene(points_, maxDistance, parallel_, progress_);
     allocate();
     const bool reflect = options_.kind == TransferKind::interreflected && options_.bounces != 0 && !isBlack();
     const int rays =

@@ -139,7 +139,7 @@ RayScene::BuffersPtr RayScene::makeBuffers() const {
   return BuffersPtr(new Buffers);
 }
 
-RayScene::RayScene(const LightingPoints& points, float maxDistance, int threads, Progress& progress)
+RayScene::RayScene(const LightingPoints& points, float maxDistance, const Parallel& parallel, Progress& progress)
     : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.points = &points;
@@ -158,7 +158,7 @@ RayScene::RayScene(const LightingPoints& points, float maxDistance, int threads,
   s.twins = faceTwins(points);
 
   const FlushDenormals flush;
-  s.device = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
+  s.device = rtcNewDevice(nullptr);
   if (s.device == nullptr) fail(rtcGetDeviceError(nullptr), "no device");
   rtcSetDeviceErrorFunction(
       s.device,
@@ -187,7 +187,8 @@ RayScene::RayScene(const LightingPoints& points, float maxDistance, int threads,
   progress.begin("building", 0, "faces");
   rtcSetSceneProgressMonitorFunction(
       s.scene, [](void* user, double) { return static_cast<Progress*>(user)->tryAdvance(0); }, &progress);
-  rtcCommitScene(s.scene);
+  // Joined from our own threads: a device with a number of threads would set a limit for the whole process.
+  parallel.forBlocks(1, 1, [&](std::size_t, std::size_t, int) { rtcJoinCommitScene(s.scene); });
   if (s.error != RTC_ERROR_NONE) fail(s.error, s.errorText.c_str());
   progress.end();
 }

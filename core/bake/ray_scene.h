@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "mesh/lighting_points.h"
 
@@ -26,9 +27,9 @@ class RayScene {
   /// Rays of one point, at most this many in a call.
   static constexpr int kMaxGroups = 64;
 
-  /// Builds the BVH on `threads` threads. `points` must outlive the scene: Embree traces its arrays in place.
+  /// Builds the BVH on the threads of `parallel`. `points` must outlive the scene: Embree traces its arrays in place.
   /// `maxDistance` in work units. Throws a work error where Embree fails (out of memory), cancelled by `progress`.
-  RayScene(const LightingPoints& points, float maxDistance, int threads, Progress& progress);
+  RayScene(const LightingPoints& points, float maxDistance, const Parallel& parallel, Progress& progress);
   ~RayScene();
 
   /// Rays from one position, in groups of 16: directions in a local frame and its axes in the world.

@@ -25,7 +25,7 @@ struct Verdict {
 /// Compares what every `step`-th point sees with the judge, and the two ways of looking with each other.
 Verdict compare(const LightingPoints& points, int rays, double far = kInfinity, std::uint32_t step = 1) {
   Progress progress;
-  const RayScene scene(points, float(far), 1, progress);
+  const RayScene scene(points, float(far), Parallel(1), progress);
   const DirectionSet set(rays, 1);
   PointTracer tracer(points, scene, set, 1, true);
   VisibilityJudge judge(points, far);
@@ -209,7 +209,7 @@ TEST_CASE("contact is judged by the distance to the plane: grazing rays pass, ne
     }
     REQUIRE(position != LightingPoints::kNone);
     Progress progress;
-    const RayScene scene(points, float(kInfinity), 1, progress);
+    const RayScene scene(points, float(kInfinity), Parallel(1), progress);
     const RayScene::BuffersPtr buffers = scene.makeBuffers();
     std::vector<float> x(16), y(16), z(16);
     for (std::size_t i = 0; i < 16; ++i) {

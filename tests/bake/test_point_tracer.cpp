@@ -19,7 +19,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 TEST_CASE("the turn depends on seed and point alone and covers the circle", "[point_tracer]") {
   const LightingPoints points = pointsOf(shapes::icosphere(3));
   Progress progress;
-  const RayScene scene(points, kInfinity, 1, progress);
+  const RayScene scene(points, kInfinity, Parallel(1), progress);
   const DirectionSet set(16, 1);
   const PointTracer a(points, scene, set, 1, false), b(points, scene, set, 1, true), c(points, scene, set, 2, false);
   // Kolmogorov and Smirnov's statistic of n uniform numbers exceeds 2.2 / sqrt(n) with probability 1.2e-4.
@@ -45,7 +45,7 @@ TEST_CASE("the turn depends on seed and point alone and covers the circle", "[po
 TEST_CASE("what a point sees does not depend on the points looked from before", "[point_tracer]") {
   const LightingPoints points = pointsOf(shapes::chessPiece(0));
   Progress progress;
-  const RayScene scene(points, kInfinity, 1, progress);
+  const RayScene scene(points, kInfinity, Parallel(1), progress);
   const DirectionSet set(2048, 1);  // more groups than fit one call
   PointTracer forward(points, scene, set, 1, false), backward(points, scene, set, 1, false);
   std::vector<std::vector<std::uint16_t>> seen(points.size(), std::vector<std::uint16_t>(std::size_t(set.groups())));
@@ -63,7 +63,7 @@ TEST_CASE("a touching face that blocks is a hit at the position, on the other si
   // A floor and a wall that share an edge: at the crease, half of what the floor sees is the wall at distance zero.
   const LightingPoints points = pointsOf(shapes::corner(2));
   Progress progress;
-  const RayScene scene(points, kInfinity, 1, progress);
+  const RayScene scene(points, kInfinity, Parallel(1), progress);
   const DirectionSet set(256, 1);
   PointTracer tracer(points, scene, set, 1, false);
   std::vector<std::uint16_t> sky(std::size_t(set.groups()));
@@ -91,7 +91,7 @@ TEST_CASE("hits tell where they are", "[point_tracer]") {
   // Two sheets 1 apart: a hit at direction d lies at the origin + d / d.z. Weights are quantised to 1/65535.
   const LightingPoints points = pointsOf(shapes::parallelSheets(1, 2));
   Progress progress;
-  const RayScene scene(points, kInfinity, 1, progress);
+  const RayScene scene(points, kInfinity, Parallel(1), progress);
   const DirectionSet set(256, 1);
   PointTracer tracer(points, scene, set, 4, false);
   std::vector<std::uint16_t> sky(std::size_t(set.groups()));

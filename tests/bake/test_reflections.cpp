@@ -25,7 +25,7 @@ class Traced {
          bool twoSided = false)
       : points_(points),
         parallel_(threads),
-        scene_(points, std::numeric_limits<float>::infinity(), threads, progress_),
+        scene_(points, std::numeric_limits<float>::infinity(), parallel_, progress_),
         set_(rays, 2),
         reflections_(points, scene_, set_, seed, twoSided, memory, parallel_),
         hits(points.size()),
