@@ -23,24 +23,32 @@ void requireReadable(const std::string& path) {
   if (std::filesystem::file_size(path, error) == 0 && !error) fail(path, "is empty", "fetch it again");
 }
 
-/// The module's function. The module stays loaded: the rows that it returns hold its code.
-decltype(&shbakeOpenMapFile) loadModule(const std::string& path) {
-  static void* const module = ::dlopen(SHBAKE_MAP_FILE_MODULE, RTLD_NOW | RTLD_LOCAL);
-  void* const symbol = module == nullptr ? nullptr : ::dlsym(module, "shbakeOpenMapFile");
-  if (symbol == nullptr) {
-    const char* cause = ::dlerror();
-    fail(path, std::string("the part of shbake that reads images cannot be loaded: ") + (cause ? cause : "unknown"),
-         "build shbake again, with libopenimageio-dev installed");
+/// The module, or why it could not be loaded. It stays loaded: the rows that it returns hold its code.
+struct MapFileModule {
+  decltype(&shbakeOpenMapFile) open = nullptr;
+  std::string problem;
+
+  // By its full path: a search along the program's run path does not work under the address sanitizer, whose own dlopen
+  // is then the caller.
+  MapFileModule() {
+    void* const module = ::dlopen(SHBAKE_MAP_FILE_MODULE, RTLD_NOW | RTLD_LOCAL);
+    void* const symbol = module == nullptr ? nullptr : ::dlsym(module, "shbakeOpenMapFile");
+    open = reinterpret_cast<decltype(&shbakeOpenMapFile)>(symbol);
+    if (symbol == nullptr) problem = ::dlerror();
   }
-  return reinterpret_cast<decltype(&shbakeOpenMapFile)>(symbol);
-}
+};
 
 }  // namespace
 
 MapRows openMapFile(const std::string& path, PixelEncoding encoding, int threads) {
   requireReadable(path);
   MapRows rows;
-  loadModule(path)(path, encoding, threads, rows);
+  static const MapFileModule module;
+  if (module.open == nullptr) {
+    fail(path, "the part of shbake that reads images cannot be loaded: " + module.problem,
+         "build shbake again, with libopenimageio-dev installed");
+  }
+  module.open(path, encoding, threads, rows);
   return rows;
 }
 

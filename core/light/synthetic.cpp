@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "sh/check.h"
 #include "sh/irradiance.h"
 #include "sh/zonal.h"
 
@@ -57,13 +58,13 @@ Light constantLight(int order, const Vec3d& radiance) {
 
 Light discLight(int order, const Vec3d& direction, double halfAngle, const Vec3d& radiance) {
   requireHalfAngle(halfAngle, 180);
-  static_cast<void>(Light(order));
   return zonalLight(sh::zonalCap(order, halfAngle * pi / 180), direction, radiance);
 }
 
 Light discLightOfIrradiance(int order, const Vec3d& direction, double halfAngle, const Vec3d& irradiance) {
   requireHalfAngle(halfAngle, 90);
-  std::vector<double> zonal(Light(order).order);
+  sh::requireOrder(order, 1, kMaxLightOrder, "a light");
+  std::vector<double> zonal(order);
   if (halfAngle > 0) {
     zonal = sh::zonalCap(order, halfAngle * pi / 180);
   } else {
