@@ -215,7 +215,7 @@ class Output(ProgramTest):
         small = self.folder / "small"
         small.mkdir()
         script = ('mount -t tmpfs -o size=16k none "$1" || exit 77; echo old >"$1/out.ply"; "$2" bake box.obj -o '
-                  '"$1/out.ply" --order 12 --rays 16; code=$?; ls "$1" >&2; cat "$1/out.ply" >&2; exit $code')
+                  '"$1/out.ply" --order 8 --albedo 0.9,0.5,0.2 --rays 16; code=$?; ls "$1" >&2; cat "$1/out.ply" >&2; exit $code')
         result = subprocess.run(["unshare", "-m", "sh", "-c", script, "sh", small, PROGRAM], cwd=self.folder, text=True,
                                 capture_output=True, timeout=60)
         if result.returncode == 77 or "unshare failed" in result.stderr:
@@ -227,7 +227,7 @@ class Output(ProgramTest):
 
     def test_a_limit_on_file_sizes_is_told_and_the_old_file_stays(self):
         self.out.write_text("old")
-        result = self.run_program("bake", "box.obj", "-o", "out.ply", "--order", "12", "--rays", "16",
+        result = self.run_program("bake", "box.obj", "-o", "out.ply", "--order", "8", "--rays", "16",
                                   prepare=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096)))
         self.assertEqual(result.code, 1)
         self.assert_one_line(result.stderr, "shbake: out.ply: ", "ulimit -f")
