@@ -5,8 +5,8 @@
 // grows with the number of crossed cells, at (1/N)^2 |y|^2 times a constant a cell, and |y|^2 = n^2 / 4 pi in every
 // direction (addition theorem). Crossed cells are counted in the visibility masks, at no cost to the estimate:
 // splitting the rays into independent sets, the usual way to a standard error, would lose the lattice's convergence of
-// N^-3/4. The constants are measured: bench_error compares stated with true errors on all meshes, orders and ray counts
-// (docs/accuracy.md).
+// N^-3/4. The constants are measured: the program bench_error compares stated with true errors on meshes, orders and ray
+// counts of choice.
 #pragma once
 
 #include <cstdint>
