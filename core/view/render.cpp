@@ -10,19 +10,12 @@
 #include <vector>
 
 #include "base/error.h"
+#include "view/placed_triangles.h"
 
 namespace shbake {
 namespace {
 
-/// Steps of the grid in a sample. Places are below 2^(15 + 4 + 8 + 4), their products below 2^63.
-constexpr std::int64_t kGrid = 256;
 constexpr int kBandRows = 16;
-
-/// A vertex in the picture: its place in grid steps (y downwards) and 1 / depth.
-struct Corner {
-  std::int64_t x = 0, y = 0;
-  double inverseDepth = 0;
-};
 
 void validate(const Mesh& mesh, std::span<const Rgb> colors, const RenderOptions& options) {
   if (colors.size() != mesh.positions.size()) {
@@ -34,24 +27,8 @@ void validate(const Mesh& mesh, std::span<const Rgb> colors, const RenderOptions
   }
 }
 
-std::vector<Corner> placeVertices(const Mesh& mesh, const Camera& camera, const RenderOptions& options) {
-  const double stepsX = 0.5 * options.width * options.samples * kGrid;
-  const double stepsY = 0.5 * options.height * options.samples * kGrid;
-  std::vector<Corner> corners;
-  corners.reserve(mesh.positions.size());
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    const Camera::Projected p = camera.project(mesh.positions[v]);
-    if (!(p.depth > 0) || std::max(std::abs(p.x), std::abs(p.y)) > kMostOutside) {
-      throw usageError("vertex " + std::to_string(v) + " lies behind the camera or far outside the picture",
-                       "place the camera with fitCamera()");
-    }
-    corners.push_back({std::llround((1 + p.x) * stepsX), std::llround((1 - p.y) * stepsY), 1 / p.depth});
-  }
-  return corners;
-}
-
 /// Twice the signed area of (a, b, p): positive where p lies to the right of the way from a to b, y downwards.
-std::int64_t edge(const Corner& a, const Corner& b, std::int64_t x, std::int64_t y) {
+std::int64_t edge(const PlacedCorner& a, const PlacedCorner& b, std::int64_t x, std::int64_t y) {
   return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
@@ -65,7 +42,7 @@ class Band {
     nearness_.resize(count);
   }
 
-  void draw(const std::array<const Corner*, 3>& corners, const std::array<Rgb, 3>& colors);
+  void draw(const PlacedCorner& a, const PlacedCorner& b, const PlacedCorner& c);
   void resolve(const Camera& camera, Picture& picture) const;
 
  private:
@@ -78,8 +55,7 @@ class Band {
   std::vector<double> nearness_;  ///< 1 / depth of the nearest surface so far, 0 for none
 };
 
-void Band::draw(const std::array<const Corner*, 3>& corners, const std::array<Rgb, 3>& colors) {
-  const Corner &a = *corners[0], &b = *corners[1], &c = *corners[2];
+void Band::draw(const PlacedCorner& a, const PlacedCorner& b, const PlacedCorner& c) {
   const std::int64_t area = edge(a, b, c.x, c.y);
   // With y downwards, a triangle that runs counter-clockwise for its viewer has a negative area.
   if (area == 0 || (options_.cullBackFaces && area > 0)) return;
@@ -89,14 +65,14 @@ void Band::draw(const std::array<const Corner*, 3>& corners, const std::array<Rg
   const auto [lowY, highY] = std::minmax({a.y, b.y, c.y});
   // Samples lie in the middle of their cells; a cell too many at either end is found to be outside.
   const auto cell = [](std::int64_t place, std::int64_t least, std::int64_t most) {
-    return static_cast<int>(std::clamp(place >= 0 ? place / kGrid : std::int64_t(-1), least, most));
+    return static_cast<int>(std::clamp(place >= 0 ? place / kGridSteps : std::int64_t(-1), least, most));
   };
   const int x0 = cell(lowX, 0, width_), x1 = cell(highX, -1, width_ - 1);
   const int y0 = cell(lowY, top, bottom), y1 = cell(highY, top - 1, bottom - 1);
   const double scale = 1 / static_cast<double>(sign * area);
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
-      const std::int64_t px = x * kGrid + kGrid / 2, py = y * kGrid + kGrid / 2;
+      const std::int64_t px = x * kGridSteps + kGridSteps / 2, py = y * kGridSteps + kGridSteps / 2;
       const std::int64_t ea = sign * edge(b, c, px, py), eb = sign * edge(c, a, px, py), ec = sign * edge(a, b, px, py);
       if (ea < 0 || eb < 0 || ec < 0) continue;
       // 1 / depth is linear in the picture, and so is whatever is linear in space, divided by depth.
@@ -107,8 +83,8 @@ void Band::draw(const std::array<const Corner*, 3>& corners, const std::array<Rg
       const std::size_t at = static_cast<std::size_t>(y - top) * width_ + x;
       if (!(nearness > nearness_[at])) continue;
       nearness_[at] = nearness;
-      colors_[at] = colors[0] * static_cast<float>(wa / nearness) + colors[1] * static_cast<float>(wb / nearness) +
-                    colors[2] * static_cast<float>(wc / nearness);
+      colors_[at] = a.color * static_cast<float>(wa / nearness) + b.color * static_cast<float>(wb / nearness) +
+                    c.color * static_cast<float>(wc / nearness);
     }
   }
 }
@@ -146,16 +122,17 @@ Picture render(const Mesh& mesh, std::span<const Rgb> colors, const Camera& came
                const Parallel& parallel) {
   validate(mesh, colors, options);
   Picture picture(options.width, options.height);
-  const std::vector<Corner> corners = placeVertices(mesh, camera, options);
+  const PlacedTriangles placed =
+      placeTriangles(mesh, colors, camera, options.width * options.samples, options.height * options.samples);
   parallel.forBlocks(static_cast<std::size_t>(options.height), kBandRows, [&](std::size_t begin, std::size_t end, int) {
     Band band(static_cast<int>(begin), static_cast<int>(end - begin), options);
-    const auto top = static_cast<std::int64_t>(begin) * options.samples * kGrid;
-    const auto bottom = static_cast<std::int64_t>(end) * options.samples * kGrid;
-    for (const Triangle& t : mesh.triangles) {
-      const std::array<const Corner*, 3> c{&corners[t[0]], &corners[t[1]], &corners[t[2]]};
-      const auto [low, high] = std::minmax({c[0]->y, c[1]->y, c[2]->y});
+    const auto top = static_cast<std::int64_t>(begin) * options.samples * kGridSteps;
+    const auto bottom = static_cast<std::int64_t>(end) * options.samples * kGridSteps;
+    for (const Triangle& t : placed.triangles) {
+      const PlacedCorner &a = placed.corners[t[0]], &b = placed.corners[t[1]], &c = placed.corners[t[2]];
+      const auto [low, high] = std::minmax({a.y, b.y, c.y});
       if (high < top || low > bottom) continue;
-      band.draw(c, {colors[t[0]], colors[t[1]], colors[t[2]]});
+      band.draw(a, b, c);
     }
     band.resolve(camera, picture);
   });

@@ -35,12 +35,10 @@ struct RenderOptions {
 /// Draws the triangles with `colors`, the radiance of each vertex, interpolated linearly over each triangle in space
 /// (perspective-correct), the nearest surface winning, of equally near ones the first triangle. Edges are found in
 /// exact integer arithmetic on a grid of 1/256 sample, so that triangles which share vertices leave no gap. Negative
-/// radiance is drawn black, or kept where `tone` is empty. Threads share bands of rows: the result does not depend on
-/// them. Throws a usage error for options out of range, unless there is a colour for each vertex, and for a vertex that
-/// is behind the camera or more than kMostOutside pictures outside: fitCamera() never places one there.
+/// radiance is drawn black, or kept where `tone` is empty. What reaches behind the camera is cut off
+/// (placeTriangles()). Threads share bands of rows: the result does not depend on them. Throws a usage error for
+/// options out of range and unless there is a colour for each vertex.
 Picture render(const Mesh& mesh, std::span<const Rgb> colors, const Camera& camera, const RenderOptions& options,
                const Parallel& parallel);
-
-inline constexpr double kMostOutside = 8;
 
 }  // namespace shbake
