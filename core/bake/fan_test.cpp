@@ -11,6 +11,8 @@ namespace {
 /// The start lies this far (radians) above its own face: far more than the rounding of double cross products of float
 /// coordinates (1e-15), far less than any angle that a sampled direction resolves.
 constexpr double kStartHeight = 1e-6;
+/// Directions within faces in contact that differ by less than this (cosine; 1.4e-6 radians) are one.
+constexpr double kSameDirection = 1 - 1e-12;
 /// Edges that rise less than this above the tangent plane block no measurable part of the sky (1e-12 of it).
 constexpr float kFlat = 1e-6f;
 
@@ -38,13 +40,36 @@ int FanTest::edgeTo(std::uint32_t position, const Vec3f& origin) {
   return static_cast<int>(edges_.size()) - 1;
 }
 
+int FanTest::edgeAlong(const Vec3d& direction, std::size_t firstEdge) {
+  for (std::size_t i = firstEdge; i < edges_.size(); ++i) {
+    if (dot(edges_[i].direction, direction) > kSameDirection) return static_cast<int>(i);
+  }
+  edges_.push_back({kNone, direction, {}, 0});
+  return static_cast<int>(edges_.size()) - 1;
+}
+
 bool FanTest::isOwn(std::uint32_t face, std::uint32_t p) const {
   if (face == kNone) return false;
   const Triangle& own = points_.facePoints[face];
   return own[0] == p || own[1] == p || own[2] == p;
 }
 
-void FanTest::addArcs(std::uint32_t p) {
+void FanTest::addArc(std::uint32_t face, int from, int to, std::uint32_t p, std::size_t firstArc) {
+  // Coincident faces are one wall, not two that cancel. The point's own face stands for those wound like it.
+  const auto known =
+      std::find_if(arcs_.begin() + static_cast<std::ptrdiff_t>(firstArc), arcs_.end(),
+                   [&](const Arc& a) { return (a.from == from && a.to == to) || (a.from == to && a.to == from); });
+  if (known != arcs_.end()) {
+    std::uint32_t& side = known->from == from ? known->face : known->back;
+    if (side == kNone || isOwn(face, p)) side = face;
+    return;
+  }
+  arcs_.push_back({face, kNone, from, to, {}, true});
+  ++edges_[static_cast<std::size_t>(from)].uses;
+  ++edges_[static_cast<std::size_t>(to)].uses;
+}
+
+void FanTest::addFan(std::uint32_t p) {
   edges_.clear();
   arcs_.clear();
   const std::uint32_t position = points_.pointPosition[p];
@@ -53,36 +78,57 @@ void FanTest::addArcs(std::uint32_t p) {
     const Triangle& t = points_.faces[f];
     const std::size_t corner = t[0] == position ? 0 : t[1] == position ? 1 : 2;
     const int from = edgeTo(t[(corner + 1) % 3], origin), to = edgeTo(t[(corner + 2) % 3], origin);
-    // Coincident faces are one wall, not two that cancel. The point's own face stands for those wound like it.
-    const auto known = std::find_if(arcs_.begin(), arcs_.end(), [&](const Arc& a) {
-      return (a.from == from && a.to == to) || (a.from == to && a.to == from);
-    });
-    if (known != arcs_.end()) {
-      std::uint32_t& side = known->from == from ? known->face : known->back;
-      if (side == kNone || isOwn(f, p)) side = f;
-      continue;
+    addArc(f, from, to, p, 0);
+  }
+  surfaceEnds_.assign(1, arcs_.size());
+}
+
+void FanTest::addContacts(std::uint32_t p, std::uint32_t startFace, const Vec3d& start) {
+  const std::span<const Contact> contacts = contacts_.of(points_.pointPosition[p]);
+  for (std::size_t i = 0, end = 0; i < contacts.size(); i = end) {
+    const std::size_t firstEdge = edges_.size(), firstArc = arcs_.size();
+    for (end = i; end < contacts.size() && contacts[end].isSamePart(contacts[i]); ++end) {
+      // A face that the start lies in is one wall with the start's own: it has no side of its own.
+      if (isCovered(startFace, start, contacts[end])) continue;
+      const ContactSectors sectors = sectorsOf(points_, contacts[end]);
+      for (std::size_t k = 0; k + 1 < sectors.count; ++k) {
+        const int from = edgeAlong(sectors.direction[k], firstEdge),
+                  to = edgeAlong(sectors.direction[k + 1], firstEdge);
+        addArc(contacts[end].face, from, to, p, firstArc);
+      }
     }
-    arcs_.push_back({f, kNone, from, to, {}, true});
-    ++edges_[static_cast<std::size_t>(from)].uses;
-    ++edges_[static_cast<std::size_t>(to)].uses;
+    if (arcs_.size() > firstArc) surfaceEnds_.push_back(arcs_.size());
   }
 }
 
-bool FanTest::chooseStart(std::uint32_t p, const Vec3d& normal, Vec3d& start) const {
+bool FanTest::isCovered(std::uint32_t face, const Vec3d& direction, const Contact& by) const {
+  return areCoplanar(points_, face, by.face, contacts_.distance()) && sectorsOf(points_, by).hold(direction);
+}
+
+const FanTest::Arc* FanTest::chooseStart(std::uint32_t p, const Vec3d& normal, Vec3d& start) const {
+  const Arc* best = nullptr;
   double least = 2;  // cosine of the widest sector so far
+  bool bestCovered = false;
+  const std::span<const Contact> contacts = contacts_.of(points_.pointPosition[p]);
   for (const Arc& arc : arcs_) {
     const Vec3d a = edges_[static_cast<std::size_t>(arc.from)].direction;
     const Vec3d b = edges_[static_cast<std::size_t>(arc.to)].direction;
     const Vec3d n = normalized(cross(a, b));
     const double cosine = dot(a, b);
-    if (!(isOwn(arc.face, p) || isOwn(arc.back, p)) || cosine > least || n == Vec3d{}) continue;
+    if (!(isOwn(arc.face, p) || isOwn(arc.back, p)) || n == Vec3d{}) continue;
     const Vec3d above = normalized(normalized(a + b) + n * (dot(n, normal) < 0 ? -kStartHeight : kStartHeight));
+    // What another face covers, such as the ground within the foot of a wall, is not the side that is looked at.
+    const bool covered =
+        std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) { return isCovered(arc.face, above, c); });
     // Sectors of one width are common (the two halves of a square's corner): not the order of faces decides.
-    if (cosine == least && std::tie(above.x, above.y, above.z) > std::tie(start.x, start.y, start.z)) continue;
+    const auto rank = [](bool isHidden, double c, const Vec3d& s) { return std::tuple(isHidden, c, s.x, s.y, s.z); };
+    if (best != nullptr && rank(covered, cosine, above) >= rank(bestCovered, least, start)) continue;
+    best = &arc;
+    bestCovered = covered;
     least = cosine;
     start = above;
   }
-  return least < 2;
+  return best;
 }
 
 void FanTest::orient(const Vec3d& start) {
@@ -128,11 +174,13 @@ float FanTest::highestPoint(const Vec3d& start, const Vec3d& normal) const {
 void FanTest::setPoint(std::uint32_t p) {
   height_ = 0;
   zenithBlocked_ = false;
-  if (!risesAboveTangentPlane(p)) return;
-  addArcs(p);
+  if (!risesAboveTangentPlane(p) && contacts_.of(points_.pointPosition[p]).empty()) return;
+  addFan(p);
   const Vec3d normal(points_.pointNormal[p]);
   Vec3d start;
-  if (!chooseStart(p, normal, start)) return;
+  const Arc* own = chooseStart(p, normal, start);
+  if (own == nullptr) return;
+  addContacts(p, own->face, start);
   height_ = highestPoint(start, normal);
   if (height_ == 0) return;
   orient(start);
@@ -144,9 +192,12 @@ void FanTest::setPoint(std::uint32_t p) {
   zenithBlocked_ = (blocked(x.data(), y.data(), z.data(), ignored.data()) & 1) != 0;
 }
 
-std::uint32_t FanTest::blocked(const float* x, const float* y, const float* z, std::uint32_t* faces) const {
+std::uint32_t FanTest::crossedOddly(std::size_t firstArc, std::size_t endArc, const float* x, const float* y,
+                                    const float* z, std::uint32_t* faces) const {
   std::array<std::int32_t, 16> odd{};
-  for (const Arc& arc : arcs_) {
+  std::array<std::uint32_t, 16> last{};
+  for (std::size_t k = firstArc; k < endArc; ++k) {
+    const Arc& arc = arcs_[k];
     const Vec3f a = edges_[static_cast<std::size_t>(arc.from)].plane,
                 b = edges_[static_cast<std::size_t>(arc.to)].plane;
     const Vec3f c = arc.plane;
@@ -160,11 +211,24 @@ std::uint32_t FanTest::blocked(const float* x, const float* y, const float* z, s
     }
     for (std::size_t i = 0; i < 16; ++i) {
       odd[i] ^= crossed[i];
-      faces[i] = crossed[i] != 0 ? arc.face : faces[i];
+      last[i] = crossed[i] != 0 ? arc.face : last[i];
     }
   }
   std::uint32_t mask = 0;
-  for (unsigned i = 0; i < 16; ++i) mask |= static_cast<std::uint32_t>(odd[i]) << i;
+  for (unsigned i = 0; i < 16; ++i) {
+    mask |= static_cast<std::uint32_t>(odd[i]) << i;
+    faces[i] = odd[i] != 0 ? last[i] : faces[i];
+  }
+  return mask;
+}
+
+std::uint32_t FanTest::blocked(const float* x, const float* y, const float* z, std::uint32_t* faces) const {
+  std::uint32_t mask = 0;
+  std::size_t first = 0;
+  for (const std::size_t end : surfaceEnds_) {
+    mask |= crossedOddly(first, end, x, y, z, faces);
+    first = end;
+  }
   return mask;
 }
 

@@ -4,12 +4,15 @@
 // concave vertices (Green, "Spherical Harmonic Lighting: The Gritty Details", 2003, leaves them out; a closed room's
 // corner then sees 57 % of the sky). Seen from the position, each such face is one great-circle arc from one of its
 // edge directions to the other, and together the arcs bound the solid angle that is blocked. A direction d is blocked
-// where the arc from a start s, known to be free, to d crosses them an odd number of times.
+// where the arc from a start s, known to be free, to d crosses them an odd number of times. Faces that the position
+// lies on without sharing it (contact.h) are seen from it as half or whole great circles, and block by the same rule,
+// each part of a surface for itself: what stands on the ground does not see through it, whatever its own faces do.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "bake/contact_search.h"
 #include "mesh/lighting_points.h"
 
 namespace shbake {
@@ -17,7 +20,7 @@ namespace shbake {
 /// The fan of one lighting point at a time; reused from point to point so that nothing is allocated.
 class FanTest {
  public:
-  explicit FanTest(const LightingPoints& points) : points_(points) {}
+  FanTest(const LightingPoints& points, const Contacts& contacts) : points_(points), contacts_(contacts) {}
 
   /// Takes up point `p`. Cost: a few operations a touching face, a few dozen where one rises above the tangent plane.
   void setPoint(std::uint32_t p);
@@ -37,7 +40,7 @@ class FanTest {
 
  private:
   struct Edge {
-    std::uint32_t position;  // the neighbour that the edge leads to
+    std::uint32_t position;  // the neighbour that the edge leads to; kNone where it leads along a face in contact
     Vec3d direction;         // unit
     Vec3f plane;             // normal of the plane through s and the edge, any length
     int uses;                // arcs that end here
@@ -54,15 +57,23 @@ class FanTest {
   static constexpr std::uint32_t kNone = LightingPoints::kNone;
 
   int edgeTo(std::uint32_t position, const Vec3f& origin);
+  int edgeAlong(const Vec3d& direction, std::size_t firstEdge);
   bool isOwn(std::uint32_t face, std::uint32_t p) const;
-  void addArcs(std::uint32_t p);
-  bool chooseStart(std::uint32_t p, const Vec3d& normal, Vec3d& start) const;
+  void addArc(std::uint32_t face, int from, int to, std::uint32_t p, std::size_t firstArc);
+  void addFan(std::uint32_t p);
+  void addContacts(std::uint32_t p, std::uint32_t startFace, const Vec3d& start);
+  bool isCovered(std::uint32_t face, const Vec3d& direction, const Contact& by) const;
+  const Arc* chooseStart(std::uint32_t p, const Vec3d& normal, Vec3d& start) const;
   void orient(const Vec3d& start);
   float highestPoint(const Vec3d& start, const Vec3d& normal) const;
+  std::uint32_t crossedOddly(std::size_t firstArc, std::size_t endArc, const float* x, const float* y, const float* z,
+                             std::uint32_t* faces) const;
 
   const LightingPoints& points_;
+  const Contacts& contacts_;
   std::vector<Edge> edges_;
   std::vector<Arc> arcs_;
+  std::vector<std::size_t> surfaceEnds_;  // one past the last arc of each surface: the fan, then those in contact
   float height_ = 0;
   bool zenithBlocked_ = false;
 };

@@ -24,7 +24,7 @@ PointTracer::PointTracer(const LightingPoints& points, const RayScene& scene, co
       directions_(directions),
       seed_(seed),
       twoSided_(twoSided),
-      fan_(points),
+      fan_(points, scene.contacts()),
       buffers_(scene.makeBuffers()),
       fanFaces_(kChunk * kGroup),
       fanMask_(kChunk),
@@ -54,8 +54,11 @@ void PointTracer::testFan(const RayScene::Rays& rays, int firstGroup) {
 
 Hit PointTracer::hitOnFan(std::uint32_t face, std::uint32_t position) const {
   const Triangle& t = points_.faces[face];
-  const auto weight = [&](std::size_t corner) { return static_cast<std::uint16_t>(t[corner] == position ? 65535 : 0); };
-  return {face, weight(1), weight(2)};
+  const auto whole = [&](std::size_t corner) { return static_cast<std::uint16_t>(t[corner] == position ? 65535 : 0); };
+  if (t[0] == position || t[1] == position || t[2] == position) return {face, whole(1), whole(2)};
+  const Vec3d weights = weightsAt(points_, face, position);
+  const auto part = [](double weight) { return static_cast<std::uint16_t>(weight * 65535 + 0.5); };
+  return {face, part(weights.y), part(weights.z)};
 }
 
 template <class Trace>

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cfloat>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -13,6 +12,7 @@
 #include <new>
 #include <string>
 
+#include "bake/contact_search.h"
 #include "bake/face_twins.h"
 #include "base/error.h"
 
@@ -23,13 +23,12 @@
 namespace shbake {
 namespace {
 
-/// A position lies on a face where it is this near to its plane, in units of the coordinate scale: rounding to float
-/// moves the position and the plane by sqrt(3)/4 ulp each, together 0.87 ulp.
-constexpr double kContactUlps = 1;
-/// Rays begin this far from their origin, which spares the filter most faces that touch it.
-constexpr float kNearUlps = 0.5f;
-/// Float hit distances are off by a few ulp of the coordinate scale; hits that seem farther from contact than this are.
-constexpr double kSuspectUlps = 16;
+/// Rays begin this far from their origin in units of contactDistance(), which spares the filter most faces that touch
+/// it.
+constexpr double kNear = 0.5;
+/// Float hit distances are off by a few ulp of the coordinate scale, contactDistance(); hits that seem farther from
+/// contact than this are.
+constexpr double kSuspect = 16;
 /// Rounding of the product of normal and distance of a face that the origin lies on, in units of its edge length cubed:
 /// differences of coordinates carry one half ulp, a cross and a scalar product three each, sqrt(3) times as sums of
 /// absolute values. Of slivers, whose normal is short, this is far more than the suspect distance.
@@ -111,6 +110,7 @@ struct RayScene::State {
   const LightingPoints* points = nullptr;
   std::vector<Vec3f> positions;  // with the padding that Embree reads past the end
   std::vector<std::uint32_t> twins;
+  Contacts contacts;
   FilterData filter;
   float near = 0, far = 0;
   bool packets = false;  // 16-wide packets are native; the stream is faster elsewhere
@@ -143,16 +143,14 @@ RayScene::RayScene(const LightingPoints& points, float maxDistance, const Parall
     : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.points = &points;
-  float scale = 0;
-  for (const Vec3f& p : points.positions) scale = std::max({scale, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  const double contact = contactDistance(points);
   // What is hit nearer than this along the ray is nearer than contact in any case.
-  s.near = kNearUlps * FLT_EPSILON * scale;
+  s.near = static_cast<float>(kNear * contact);
   s.far = maxDistance;
   s.positions.reserve(points.positions.size() + 1);
   s.positions = points.positions;
   s.positions.emplace_back();
-  s.filter = {points.faces.data(), s.positions.data(), kContactUlps * FLT_EPSILON * static_cast<double>(scale),
-              kSuspectUlps * FLT_EPSILON * static_cast<double>(scale),
+  s.filter = {points.faces.data(), s.positions.data(), contact, kSuspect * contact,
               kProductRounding * std::pow(static_cast<double>(longestEdge(points)), 3)};
 
   s.twins = faceTwins(points);
@@ -191,9 +189,14 @@ RayScene::RayScene(const LightingPoints& points, float maxDistance, const Parall
   parallel.forBlocks(1, 1, [&](std::size_t, std::size_t, int) { rtcJoinCommitScene(s.scene); });
   if (s.error != RTC_ERROR_NONE) fail(s.error, s.errorText.c_str());
   progress.end();
+  s.contacts = Contacts(points, s.scene, parallel, progress);
 }
 
 RayScene::~RayScene() = default;
+
+const Contacts& RayScene::contacts() const {
+  return state_->contacts;
+}
 
 namespace {
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "bake/contact_search.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "mesh/lighting_points.h"
@@ -18,10 +19,10 @@ struct Hit {
 };
 
 /// Faces touching the ray's own position never count as hit: they are found by comparing welded position ids in a
-/// filter, not by an offset (Green 2003's exclusion rule; see fan_test.h for what it misses). Nor do faces that the
-/// position lies on without sharing it (T-junctions, a box standing on the ground), up to the rounding of coordinates:
-/// 1 ulp of the coordinate scale, measured from the position to the face's plane. Measured along the ray, it would be
-/// exceeded by grazing rays on one side and would lose near faces that are met head-on on the other.
+/// filter, not by an offset (Green 2003's exclusion rule). Nor do faces that the position lies on without sharing it
+/// (T-junctions, a box standing on the ground), up to contactDistance() from the position to the face's plane. Measured
+/// along the ray, it would be exceeded by grazing rays on one side and would lose near faces that are met head-on on
+/// the other. What both kinds block is for fan_test.h to tell.
 class RayScene {
  public:
   /// Rays of one point, at most this many in a call.
@@ -31,6 +32,9 @@ class RayScene {
   /// `maxDistance` in work units. Throws a work error where Embree fails (out of memory), cancelled by `progress`.
   RayScene(const LightingPoints& points, float maxDistance, const Parallel& parallel, Progress& progress);
   ~RayScene();
+
+  /// What positions lie on without sharing it.
+  const Contacts& contacts() const;
 
   /// Rays from one position, in groups of 16: directions in a local frame and its axes in the world.
   struct Rays {

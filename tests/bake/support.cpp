@@ -3,7 +3,9 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
+#include "bake/ray_scene.h"
 #include "sh/local_frame.h"
 
 namespace shbake::testing {
@@ -16,6 +18,11 @@ LightingPoints pointsOf(const Mesh& mesh, Rgb albedo, const LightingPointOptions
     all.values = mesh.faceColors;
   }
   return makeLightingPoints(mesh, options, all);
+}
+
+Contacts contactsOf(const LightingPoints& points) {
+  Progress progress;
+  return RayScene(points, std::numeric_limits<float>::infinity(), Parallel(1), progress).contacts();
 }
 
 BakeOptions optionsOf(TransferKind kind, int order, int rays, std::uint64_t seed) {

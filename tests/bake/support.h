@@ -11,6 +11,7 @@
 
 #include "bake/bake_options.h"
 #include "bake/baker.h"
+#include "bake/contact_search.h"
 #include "bake/direction_set.h"
 #include "base/hash.h"
 #include "mesh/lighting_points.h"
@@ -24,6 +25,9 @@ inline constexpr double kHalfUlp = 0x1p-24;
 
 /// The lighting points of a mesh of one albedo; the mesh's face colours are its albedo where it has them.
 LightingPoints pointsOf(const Mesh& mesh, Rgb albedo = {1, 1, 1}, const LightingPointOptions& options = {});
+
+/// The contacts of a mesh (contact_search.h).
+Contacts contactsOf(const LightingPoints& points);
 
 /// Options of a bake with a fixed number of rays.
 BakeOptions optionsOf(TransferKind kind, int order, int rays, std::uint64_t seed = 1);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -32,8 +34,52 @@ void VisibilityJudge::setPoint(std::uint32_t point) {
     const Triangle& face = points_.faces[f];
     if (std::find(face.begin(), face.end(), position) == face.end()) beyond_.push_back(f);
   }
+  contacts_.clear();
+  for (const std::uint32_t f : beyond_) {
+    if (auto touched = touch(f)) contacts_.push_back(*std::move(touched));
+  }
   collectFan(point);
+  std::erase_if(contacts_, [&](const Touched& t) { return hasStart_ && covers(t, startFace_, start_); });
   height_ = highestPoint(Vec3d(points_.pointNormal[point]));
+}
+
+std::optional<VisibilityJudge::Touched> VisibilityJudge::touch(std::size_t f) const {
+  const Triangle& face = points_.faces[f];
+  const auto corner = [&](std::size_t k) { return Vec3d(points_.positions[face[k % 3]]) - origin_; };
+  const Vec3d plane = normalized(cross(corner(1) - corner(0), corner(2) - corner(0)));
+  if (plane == Vec3d() || std::abs(dot(plane, corner(0))) > contact_) return std::nullopt;
+  Touched touched{{}, f, plane, {}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d inwards = cross(plane, normalized(corner(k + 1) - corner(k)));
+    const double beyond = dot(inwards, corner(k));
+    if (beyond > contact_) return std::nullopt;
+    if (beyond < -contact_) continue;
+    touched.inwards.push_back(inwards);
+    const std::set<std::uint32_t> edge{face[k], face[(k + 1) % 3]};
+    std::set<std::uint32_t> common;
+    std::set_intersection(edge.begin(), edge.end(), touched.part.begin(), touched.part.end(),
+                          std::inserter(common, common.end()));
+    touched.part = touched.inwards.size() == 1 ? edge : common;
+  }
+  if (touched.inwards.empty()) touched.part = {std::uint32_t(f)};
+  return touched;
+}
+
+bool VisibilityJudge::Touched::holds(const Vec3d& direction) const {
+  return std::all_of(inwards.begin(), inwards.end(), [&](const Vec3d& in) { return dot(in, direction) >= 0; });
+}
+
+bool VisibilityJudge::isFlatOn(const Triangle& face, const Triangle& other) const {
+  const Vec3d a(points_.positions[other[0]]), b(points_.positions[other[1]]), c(points_.positions[other[2]]);
+  const Vec3d plane = normalized(cross(b - a, c - a));
+  return plane != Vec3d() && std::all_of(face.begin(), face.end(), [&](std::uint32_t p) {
+           return std::abs(dot(plane, Vec3d(points_.positions[p]) - a)) <= contact_;
+         });
+}
+
+bool VisibilityJudge::covers(const Touched& touched, std::size_t own, const Vec3d& direction) const {
+  const Triangle &a = points_.faces[touched.face], &b = points_.faces[own];
+  return (isFlatOn(a, b) || isFlatOn(b, a)) && touched.holds(direction);
 }
 
 void VisibilityJudge::collectFan(std::uint32_t point) {
@@ -43,6 +89,7 @@ void VisibilityJudge::collectFan(std::uint32_t point) {
   arcs_.clear();
   hasStart_ = false;
   double least = 2;  // cosine of the widest sector
+  bool leastCovered = true;
   for (std::size_t f = 0; f < points_.faces.size(); ++f) {
     const Triangle& face = points_.faces[f];
     const auto at = static_cast<std::size_t>(std::find(face.begin(), face.end(), position) - face.begin());
@@ -53,14 +100,20 @@ void VisibilityJudge::collectFan(std::uint32_t point) {
     const Vec3d plane = normalized(cross(a, b));
     if (known.insert(std::minmax(i, j)).second) arcs_.push_back({a, b, plane});
     const double cosine = dot(a, b);
-    if (points_.facePoints[f][at] != point || plane == Vec3d() || cosine > least) continue;
+    if (points_.facePoints[f][at] != point || plane == Vec3d()) continue;
     const Vec3d above = normalized(normalized(a + b) + plane * (dot(plane, n) < 0 ? -1e-6 : 1e-6));
-    startIsUnique_ = cosine < least;
+    // Sectors that lie open come before those that another face covers; the widest of them is the start.
+    const bool covered =
+        std::any_of(contacts_.begin(), contacts_.end(), [&](const Touched& t) { return covers(t, f, above); });
+    if (hasStart_ && std::tie(covered, cosine) > std::tie(leastCovered, least)) continue;
+    startIsUnique_ = !hasStart_ || std::tie(covered, cosine) < std::tie(leastCovered, least);
     // Of sectors of one width, the start that is least by coordinates: a rule that no order of faces changes.
     if (!startIsUnique_ && std::tie(above.x, above.y, above.z) > std::tie(start_.x, start_.y, start_.z)) continue;
     least = cosine;
+    leastCovered = covered;
     hasStart_ = true;
     start_ = above;
+    startFace_ = f;
   }
 }
 
@@ -131,9 +184,42 @@ Sees VisibilityJudge::throughFan(const Vec3d& d) const {
   return open ? Sees::either : odd ? Sees::face : Sees::sky;
 }
 
+Sees VisibilityJudge::throughContacts(const Vec3d& d) const {
+  if (!hasStart_) return Sees::sky;
+  struct Count {
+    int crossings = 0;
+    bool open = false;
+  };
+  std::map<std::set<std::uint32_t>, Count> counts;  // of each part of a surface
+  for (const Touched& t : contacts_) {
+    // The ray from a point near the origin, towards the start, meets the plane at a positive multiple of this.
+    const double from = dot(t.plane, start_), to = dot(t.plane, d);
+    const Vec3d met = start_ * std::abs(to) + d * std::abs(from);
+    int least = -signOf(to * (from < 0 ? -1 : 1), kMargin);
+    for (const Vec3d& in : t.inwards) least = std::min(least, signOf(dot(in, met), kMargin));
+    Count& count = counts[t.part];
+    count.crossings += least > 0;
+    count.open |= least == 0;
+  }
+  bool open = false;
+  for (const auto& [part, count] : counts) {
+    if (!count.open && count.crossings % 2 == 1) return Sees::face;
+    open |= count.open;
+  }
+  return open ? Sees::either : Sees::sky;
+}
+
+Sees VisibilityJudge::atPosition(const Vec3d& direction) const {
+  const Sees fan = throughFan(direction), contact = throughContacts(direction);
+  if (fan == Sees::face || contact == Sees::face) return Sees::face;
+  return fan == Sees::either ? fan : contact;
+}
+
 Sees VisibilityJudge::look(const Vec3d& direction) const {
-  const Sees fan = throughFan(direction);
-  return fan == Sees::sky ? beyondFan(direction) : fan;
+  const Sees near = atPosition(direction);
+  if (near == Sees::face) return near;
+  const Sees beyond = beyondFan(direction);
+  return beyond == Sees::face ? beyond : near == Sees::either ? near : beyond;
 }
 
 }  // namespace shbake::testing

@@ -1,0 +1,78 @@
+#include "bake/contact_search.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace shbake {
+namespace {
+
+/// Positions in a block of work.
+constexpr std::size_t kBlock = 4096;
+
+using Found = std::pair<std::uint32_t, Contact>;
+
+/// One position's question, handed through Embree to `take`.
+struct Query {
+  const LightingPoints& points;
+  double distance;
+  float margin;  // of boxes; twice the distance, since their bounds are rounded to float
+  std::uint32_t position;
+  std::vector<Found>& found;
+
+  bool isInBox(const Triangle& t) const {
+    const Vec3f &p = points.positions[position], &a = points.positions[t[0]], &b = points.positions[t[1]],
+                &c = points.positions[t[2]];
+    const auto within = [&](float x, float x0, float x1, float x2) {
+      return (x >= std::min({x0, x1, x2}) - margin) & (x <= std::max({x0, x1, x2}) + margin);
+    };
+    return within(p.x, a.x, b.x, c.x) & within(p.y, a.y, b.y, c.y) & within(p.z, a.z, b.z, c.z);
+  }
+};
+
+/// Looks at one face that Embree found near; false: the query's radius stays as it is.
+bool take(RTCPointQueryFunctionArguments* args) {
+  const Query& q = *static_cast<const Query*>(args->userPtr);
+  const Triangle& t = q.points.faces[args->primID];
+  if (t[0] == q.position || t[1] == q.position || t[2] == q.position || !q.isInBox(t)) return false;
+  if (const auto contact = contactOf(q.points, args->primID, q.position, q.distance)) {
+    q.found.push_back({q.position, *contact});
+  }
+  return false;
+}
+
+}  // namespace
+
+Contacts::Contacts(const LightingPoints& points, RTCSceneTy* scene, const Parallel& parallel, Progress& progress)
+    : distance_(contactDistance(points)) {
+  const std::size_t count = points.positionFaces.size();
+  std::vector<std::vector<Found>> blocks((count + kBlock - 1) / kBlock);
+  progress.begin("searching contacts", static_cast<double>(count), "positions");
+  parallel.forBlocks(count, kBlock, [&](std::size_t begin, std::size_t end, int) {
+    Query query{points, distance_, static_cast<float>(2 * distance_), 0, blocks[begin / kBlock]};
+    for (std::size_t p = begin; p < end; ++p) {
+      query.position = static_cast<std::uint32_t>(p);
+      RTCPointQuery near{points.positions[p].x, points.positions[p].y, points.positions[p].z, 0, query.margin};
+      RTCPointQueryContext context;
+      rtcInitPointQueryContext(&context);
+      rtcPointQuery(scene, &near, &context, take, &query);
+    }
+    progress.advance(static_cast<double>(end - begin));
+  });
+  progress.end();
+  std::vector<Found> all;
+  for (const auto& block : blocks) all.insert(all.end(), block.begin(), block.end());
+  std::sort(all.begin(), all.end());
+  for (const auto& [position, contact] : all) {
+    positions_.push_back(position);
+    contacts_.push_back(contact);
+  }
+}
+
+std::span<const Contact> Contacts::of(std::uint32_t position) const {
+  const auto [begin, end] = std::equal_range(positions_.begin(), positions_.end(), position);
+  return {contacts_.data() + (begin - positions_.begin()), contacts_.data() + (end - positions_.begin())};
+}
+
+}  // namespace shbake
