@@ -1,0 +1,15 @@
+// Long work beside a thread that must stay awake: MeshLab's window, which alone may draw.
+#pragma once
+
+#include <functional>
+
+#include "shbake.h"
+
+namespace shbake::meshlab {
+
+/// Runs `work` on another thread and calls `poll` here every 50 ms with how far it is, until it is done. When `poll`
+/// returns false the work is cancelled. Throws what `work` throws (an Error of kind `cancelled` after cancelling), and
+/// what `poll` throws, once the work has ended.
+void runInBackground(const std::function<void(Progress&)>& work, const ProgressCallback& poll);
+
+}  // namespace shbake::meshlab

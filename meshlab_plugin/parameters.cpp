@@ -1,0 +1,282 @@
+// Parameters of the filters. MeshLab checks no ranges itself, neither in its window nor in scripts.
+#include "meshlab_plugin/parameters.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "meshlab_plugin/api.h"
+
+namespace shbake::meshlab {
+namespace {
+
+constexpr int kMostMegabytes = 1 << 20;
+
+QStringList listOf(const std::vector<std::string>& names) {
+  QStringList list;
+  for (const std::string& name : names) list << QString::fromStdString(name);
+  return list;
+}
+
+[[noreturn]] void outOfRange(const char* label, const std::string& value, const std::string& range) {
+  throw usageError(std::string(label) + ": " + value + " is out of range", "give " + range);
+}
+
+int wholeOf(const RichParameterList& p, const char* name, const char* label, int least, int most) {
+  const int value = p.getInt(name);
+  if (value >= least && value <= most) return value;
+  outOfRange(label, std::to_string(value), std::to_string(least) + " to " + std::to_string(most));
+}
+
+std::string numberText(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+double checkedReal(double value, const char* label, double least, double most) {
+  if (value >= least && value <= most) return value;
+  outOfRange(label, numberText(value), numberText(least) + " to " + numberText(most));
+}
+
+double realOf(const RichParameterList& p, const char* name, const char* label, double least, double most) {
+  return checkedReal(typedNumber(static_cast<float>(p.getFloat(name))), label, least, most);
+}
+
+double sliderOf(const RichParameterList& p, const char* name, const char* label, double least, double most) {
+  return checkedReal(typedNumber(static_cast<float>(p.getDynamicFloat(name))), label, least, most);
+}
+
+/// The value at the place of an enumeration.
+template <class T>
+T choiceOf(const RichParameterList& p, const char* name, const char* label, const std::vector<T>& values) {
+  const int index = p.getEnum(name);
+  if (index >= 0 && index < static_cast<int>(values.size())) return values[static_cast<std::size_t>(index)];
+  outOfRange(label, std::to_string(index), "0 to " + std::to_string(values.size() - 1));
+}
+
+void declareRays(RichParameterList& p) {
+  p.addParam(
+      RichInt("order", 4, "Order",
+              "Bands of spherical harmonics, 1 to 8: order n keeps n x n coefficients a vertex and channel. 3 is "
+              "enough for soft light; 5 and more keep the edges of shadows."));
+  p.addParam(
+      RichInt("rays", 0, "Rays",
+              "Rays a vertex, up to 1048576, rounded up to a multiple of 16. 0: as many as the tolerance needs."));
+  p.addParam(
+      RichFloat("tolerance", 0.01f, "Tolerance",
+                "The error to reach where no number of rays is given, 0.0001 to 1: RMS over the mesh, relative to "
+                "the unshadowed transfer. 0.01 is one per cent."));
+  p.addParam(RichInt("bounces", -1, "Reflections",
+                     "How many reflections to sum, 0 to 10000. -1: until the tolerance is reached."));
+  p.addParam(RichFloat("max_distance", 0.0f, "Maximum distance",
+                       "Faces farther away than this are not seen, in the units of the mesh. 0: no limit."));
+  p.addParam(RichInt("seed", 1, "Seed", "Another number of 0 or more takes another sample of directions."));
+}
+
+void declareSurface(RichParameterList& p) {
+  p.addParam(RichBool("two_sided", false, "Two-sided faces",
+                      "Faces reflect from both sides. They block light from both sides in any case."));
+  p.addParam(RichBool("other_layers", true, "Other visible layers count",
+                      "Other visible layers cast shadows on this one and reflect onto it, without being baked."));
+  p.addParam(
+      RichEnum("albedo", 0,
+               QStringList() << "Colours where there are any, else uniform"
+                             << "Uniform"
+                             << "Vertex colours"
+                             << "Face colours",
+               "Albedo from",
+               "The share of light that the surface reflects. Colours are those that the layer had before shbake "
+               "showed it baked or relit."));
+  p.addParam(RichFloat("albedo_red", 0.8f, "Uniform albedo, red", "Linear, 0 to 1."));
+  p.addParam(RichFloat("albedo_green", 0.8f, "Uniform albedo, green", "Linear, 0 to 1."));
+  p.addParam(RichFloat("albedo_blue", 0.8f, "Uniform albedo, blue", "Linear, 0 to 1."));
+  p.addParam(RichBool("linear_colors", false, "Colours are linear",
+                      "Take 8-bit colours as linear albedo. Otherwise they are display values and sRGB-decoded."));
+  p.addParam(
+      RichEnum("normals", 1,
+               QStringList() << "Those of the layer"
+                             << "Smooth, split at creases"
+                             << "Flat",
+               "Normals",
+               "Smooth normals are made anew from the faces that meet in a vertex; vertices on a crease are split, "
+               "so that each side has its own light. Flat gives every face vertices of its own."));
+  p.addParam(RichFloat("crease", 50.0f, "Crease angle",
+                       "Faces that meet at more than this angle share no smooth normal, 0 to 180 degrees."));
+}
+
+const std::vector<sh::Window>& windows() {
+  static const std::vector<sh::Window> all{sh::Window::none, sh::Window::hann, sh::Window::lanczos, sh::Window::gauss,
+                                           sh::Window::automatic};
+  return all;
+}
+
+}  // namespace
+
+double typedNumber(float value) {
+  if (!std::isfinite(value)) return static_cast<double>(value);
+  char text[64];
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  double number = 0;
+  std::from_chars(text, end, number);
+  return number;
+}
+
+const int kFormatMask = vcg::tri::io::Mask::IOM_VERTCOLOR | vcg::tri::io::Mask::IOM_VERTNORMAL |
+                        vcg::tri::io::Mask::IOM_VERTQUALITY | vcg::tri::io::Mask::IOM_FACECOLOR;
+
+void declareFormat(RichParameterList& p) {
+  p.addParam(RichBool("ascii", false, "Text", "Write the file as text instead of binary."));
+}
+
+bool formatIsAscii(const RichParameterList& p) {
+  return p.getBool("ascii");
+}
+
+void declareBake(RichParameterList& p) {
+  p.addParam(
+      RichEnum("transfer", 2,
+               QStringList() << "Unshadowed"
+                             << "Shadowed"
+                             << "Interreflected",
+               "Transfer",
+               "How much of the light's way counts: the cosine alone (in closed form), shadows too, or shadows and "
+               "the reflections between parts of the mesh."));
+  declareRays(p);
+  declareSurface(p);
+  p.addParam(RichBool("preview", true, "Show the visible sky as grey",
+                      "Colour the vertices by the share of the sky that they see. The layer's own colours are kept for "
+                      "albedo and for saving."));
+  p.addParam(RichInt("threads", 0, "Threads", "Threads to bake with, 0 to 1024. 0: all cores."));
+  p.addParam(RichInt("memory", 0, "Memory (MB)",
+                     "Megabytes for stored hits; never changes the result. 0: half of what is free."));
+}
+
+BakeChoice bakeChoice(const RichParameterList& p) {
+  BakeChoice choice;
+  BakeOptions& bake = choice.options.bake;
+  bake.kind = choiceOf<TransferKind>(p, "transfer", "Transfer",
+                                     {TransferKind::unshadowed, TransferKind::shadowed, TransferKind::interreflected});
+  bake.order = wholeOf(p, "order", "Order", 1, 8);
+  bake.rays = wholeOf(p, "rays", "Rays", 0, 1 << 20);
+  bake.tolerance = realOf(p, "tolerance", "Tolerance", 1e-4, 1);
+  bake.bounces = wholeOf(p, "bounces", "Reflections", BakeOptions::kBouncesAuto, 10000);
+  const double distance = realOf(p, "max_distance", "Maximum distance", 0, std::numeric_limits<float>::max());
+  if (distance > 0) bake.maxDistance = distance;
+  bake.seed = static_cast<std::uint64_t>(wholeOf(p, "seed", "Seed", 0, std::numeric_limits<int>::max()));
+  bake.twoSided = p.getBool("two_sided");
+  bake.memory = static_cast<std::size_t>(wholeOf(p, "memory", "Memory", 0, kMostMegabytes)) << 20;
+  AlbedoOptions& albedo = choice.options.albedo;
+  albedo.source = choiceOf<AlbedoSource>(
+      p, "albedo", "Albedo from",
+      {AlbedoSource::automatic, AlbedoSource::uniform, AlbedoSource::vertex, AlbedoSource::face});
+  albedo.uniform = {static_cast<float>(realOf(p, "albedo_red", "Uniform albedo, red", 0, 1)),
+                    static_cast<float>(realOf(p, "albedo_green", "Uniform albedo, green", 0, 1)),
+                    static_cast<float>(realOf(p, "albedo_blue", "Uniform albedo, blue", 0, 1))};
+  albedo.bytesAreLinear = p.getBool("linear_colors");
+  choice.options.points.normals = choiceOf<NormalSource>(
+      p, "normals", "Normals", {NormalSource::automatic, NormalSource::smooth, NormalSource::flat});
+  choice.options.points.creaseDegrees = realOf(p, "crease", "Crease angle", 0, 180);
+  choice.otherLayers = p.getBool("other_layers");
+  choice.preview = p.getBool("preview");
+  choice.threads = wholeOf(p, "threads", "Threads", 0, Parallel::kMostThreads);
+  return choice;
+}
+
+void declareRelight(RichParameterList& p) {
+  p.addParam(RichEnum("light", 0, listOf(lightKindNames()), "Light",
+                      "Skies of the CIE, the same radiance from everywhere, a disc, or a file."));
+  p.addParam(
+      OpenFileParameter("light_file", "",
+                        QStringList() << "*.hdr"
+                                      << "*.exr"
+                                      << "*.shlight"
+                                      << "*.png"
+                                      << "*.jpg"
+                                      << "*.tif",
+                        "Light file",
+                        "An image of an environment map, or a light file of 'shbake light'; used where the light "
+                        "is File. Give the whole path."));
+  p.addParam(RichDynamicFloat("rotation", 0.0f, -180.0f, 180.0f, "Rotation",
+                              "Turns the light about the axis that points up, in degrees, counter-clockwise seen from "
+                              "above."));
+  p.addParam(RichDynamicFloat("exposure", 0.0f, -8.0f, 8.0f, "Exposure",
+                              "Brightens the colours by 2 to this power; added to the automatic exposure where that is "
+                              "on."));
+  p.addParam(RichBool("auto_exposure", true, "Automatic exposure", "Make the brightest 1 % of the surface white."));
+  p.addParam(RichDynamicFloat("sun_altitude", 45.0f, 0.0f, 90.0f, "Sun altitude",
+                              "Degrees above the horizon: of the sun of a sky, or of the disc."));
+  p.addParam(
+      RichDynamicFloat("sun_azimuth", 0.0f, -180.0f, 180.0f, "Sun azimuth",
+                       "Degrees clockwise from north (+y), seen from above: of the sun of a sky, or of the disc."));
+  p.addParam(
+      RichFloat("sun_irradiance", 0.0f, "Sun irradiance",
+                "What the disc of the sun adds to a sky, on a surface that faces it. The sky's zenith has radiance "
+                "1."));
+  p.addParam(
+      RichFloat("disc_angle", 10.0f, "Disc half angle", "Half the angle under which the disc is seen, 0 to 90."));
+  p.addParam(RichFloat("ground", 0.0f, "Ground albedo", "Of the ground below the horizon of a sky, 0 to 1."));
+  p.addParam(RichEnum("up", 0,
+                      QStringList() << "z"
+                                    << "y",
+                      "Up axis", "The axis of the mesh that points up."));
+  p.addParam(RichEnum("tone", 0,
+                      QStringList() << "Clip"
+                                    << "Reinhard"
+                                    << "Filmic",
+                      "Tone curve", "How bright colours end at white."));
+  p.addParam(RichEnum("window", 0,
+                      QStringList() << "None"
+                                    << "Hann"
+                                    << "Lanczos"
+                                    << "Gauss"
+                                    << "Automatic",
+                      "Window",
+                      "Damps the ringing of small bright lights; automatic takes the least that leaves no light "
+                      "negative."));
+}
+
+RelightChoice relightChoice(const RichParameterList& p) {
+  RelightChoice choice;
+  LightChoice& light = choice.light;
+  light.kind = choiceOf<LightKind>(p, "light", "Light",
+                                   {LightKind::overcast, LightKind::clear, LightKind::partlyCloudy, LightKind::white,
+                                    LightKind::disc, LightKind::file});
+  light.file = p.getOpenFileName("light_file").toStdString();
+  light.turn = sliderOf(p, "rotation", "Rotation", -360, 360);
+  light.sunAltitude = sliderOf(p, "sun_altitude", "Sun altitude", 0, 90);
+  light.sunAzimuth = sliderOf(p, "sun_azimuth", "Sun azimuth", -360, 360);
+  light.sunIrradiance = realOf(p, "sun_irradiance", "Sun irradiance", 0, 1e6);
+  light.discHalfAngle = realOf(p, "disc_angle", "Disc half angle", 0, 90);
+  light.ground = realOf(p, "ground", "Ground albedo", 0, 1);
+  light.up = choiceOf<UpAxis>(p, "up", "Up axis", {UpAxis::z, UpAxis::y});
+  light.window = choiceOf<sh::Window>(p, "window", "Window", windows());
+  choice.automaticExposure = p.getBool("auto_exposure");
+  choice.tone.exposure = sliderOf(p, "exposure", "Exposure", -100, 100);
+  choice.tone.curve =
+      choiceOf<ToneCurve>(p, "tone", "Tone curve", {ToneCurve::clip, ToneCurve::reinhard, ToneCurve::filmic});
+  validate(light);
+  return choice;
+}
+
+void declareSave(RichParameterList& p) {
+  p.addParam(SaveFileParameter("file", "", "*.ply", "File", "The PLY file to write; give the whole path."));
+  p.addParam(RichEnum("colors", 0,
+                      QStringList() << "Those from before the bake"
+                                    << "Those that are shown"
+                                    << "None",
+                      "Vertex colours", "Which colours the file gets beside the transfer."));
+  p.addParam(RichBool("ascii", false, "Text", "Write the file as text instead of binary."));
+}
+
+SaveChoice saveChoice(const RichParameterList& p) {
+  SaveChoice choice;
+  choice.path = p.getSaveFileName("file").toStdString();
+  if (choice.path.empty()) throw usageError("File: no file is named", "name the PLY file to write");
+  choice.colors =
+      choiceOf<SavedColors>(p, "colors", "Vertex colours", {SavedColors::own, SavedColors::shown, SavedColors::none});
+  choice.ascii = p.getBool("ascii");
+  return choice;
+}
+
+}  // namespace shbake::meshlab
