@@ -10,7 +10,6 @@ namespace shbake {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto kInterval = std::chrono::milliseconds(50);
 
 }  // namespace
 
@@ -55,7 +54,7 @@ void Progress::report(bool force) {
   }
   const auto now = Clock::now();
   if (!force && now.time_since_epoch().count() < nextReport_) return;  // another thread was first
-  nextReport_ = (now + kInterval).time_since_epoch().count();
+  nextReport_ = (now + interval_).time_since_epoch().count();
   state_.done = state_.total > 0 ? std::min(done_.load(), state_.total) : done_.load();
   state_.elapsed = std::chrono::duration<double>(now - start_).count();
   if (!callback_(state_)) cancelled_ = true;

@@ -18,15 +18,21 @@ struct ProgressState {
   double elapsed = 0;  ///< seconds since the stage began
 };
 
-/// Called at most every 50 ms, from any thread but never from two at once, and at the beginning and end of a stage.
+/// Called at most every 50 ms (Progress::kInterval), from any thread but never from two at once, and at the beginning
+/// and end of a stage.
 /// Returning false cancels the work: the running stage throws an Error of kind `cancelled`. It must not throw.
 using ProgressCallback = std::function<bool(const ProgressState&)>;
 
 /// Counts finished work and hands it to a callback. All members but `begin` and `end` may be called from any thread.
 class Progress {
  public:
+  using Duration = std::chrono::steady_clock::duration;
+  static constexpr Duration kInterval = std::chrono::milliseconds(50);
+
   Progress() = default;
-  explicit Progress(ProgressCallback callback) : callback_(std::move(callback)) {}
+  /// `interval` is the least time between two reports; 0: whenever work is counted.
+  explicit Progress(ProgressCallback callback, Duration interval = kInterval)
+      : callback_(std::move(callback)), interval_(interval) {}
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
@@ -43,6 +49,7 @@ class Progress {
   void report(bool force);
 
   ProgressCallback callback_;
+  Duration interval_ = kInterval;
   std::mutex mutex_;
   ProgressState state_;
   std::atomic<double> done_{0};

@@ -102,6 +102,20 @@ TEST_CASE("threads are counted exactly, and reports come one at a time and 50 ms
   for (std::size_t i = 1; i + 1 < times.size(); ++i) CHECK(times[i] - times[i - 1] > 0.05 - 1e-9);
 }
 
+TEST_CASE("without an interval, all counted work is reported") {
+  std::vector<double> done;
+  Progress progress(
+      [&](const ProgressState& state) {
+        done.push_back(state.done);
+        return true;
+      },
+      Progress::Duration::zero());
+  progress.begin("tracing", 3, "rays");
+  for (int i = 0; i < 3; ++i) progress.advance(1);
+  progress.end();
+  CHECK(done == std::vector<double>{0, 1, 2, 3, 3});
+}
+
 TEST_CASE("a callback that returns false stops advance(), tryAdvance(), end() and every later stage") {
   bool goOn = true;
   Progress progress([&](const ProgressState&) { return goOn; });
