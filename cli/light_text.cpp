@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 #include <sstream>
 
 #include "cli/format.h"
@@ -16,6 +16,10 @@ constexpr double kMost = 1e30;  // far from where squares of coefficients overfl
 
 std::vector<double> asList(const Vec3d& v) {
   return {v.x, v.y, v.z};
+}
+
+Vec3d meanRadiance(const Light& light) {
+  return light.coefficients[0] * (0.5 * std::numbers::inv_sqrtpi);
 }
 
 void describeRange(const Light& light, Report& report) {
@@ -76,20 +80,25 @@ std::string vectorText(const Vec3d& v) {
   return text;
 }
 
-double windowLight(sh::Window window, Light& light) {
-  if (window == sh::Window::none) return 0;
-  double lambda = 0;
-  if (window == sh::Window::automatic) {
-    for (int c = 0; c < 3; ++c) lambda = std::max(lambda, sh::automaticLambda(light.order, light.channel(c)));
+void describeWindow(sh::Window window, double lambda, Report& report) {
+  const bool automatic = window == sh::Window::automatic;
+  report.fact("window.lambda", lambda, "window",
+              std::string(sh::windowName(window)) + (automatic ? ", lambda " + formatNumber(lambda, 4) : ""));
+}
+
+void describeRig(std::span<const LightSample> samples, const RigOptions& options, Report& report) {
+  const bool hasPower = options.method == RigMethod::inverseDistance;
+  report.fact("order", std::int64_t(samples[0].light.order), "order", std::to_string(samples[0].light.order));
+  report.fact("rig.blend", std::string(blendName(options.method)), "rig",
+              std::to_string(samples.size()) + " local lights, " + blendName(options.method) +
+                  (hasPower ? ", power " + formatNumber(options.power) : ""));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const std::string key = "rig.samples." + std::to_string(i);
+    const Vec3d mean = meanRadiance(samples[i].light);
+    report.data(key + ".position", asList(samples[i].position));
+    report.fact(key + ".mean", asList(mean), "at " + vectorText(samples[i].position),
+                "mean " + vectorText(mean) + " red, green, blue");
   }
-  const std::vector<double> factors = window == sh::Window::automatic ? sh::laplacianFactors(lambda, light.order)
-                                                                      : sh::windowFactors(window, light.order);
-  for (int c = 0; c < 3; ++c) {
-    std::vector<double> values = light.channel(c);
-    sh::applyFactors(factors, values);
-    light.setChannel(c, values);
-  }
-  return lambda;
 }
 
 void describeLight(const Light& light, Report& report) {
@@ -97,7 +106,7 @@ void describeLight(const Light& light, Report& report) {
   report.fact("order", std::int64_t(n), "order",
               std::to_string(n) + (n == 1 ? " band, " : " bands, ") + std::to_string(n * n) +
                   " coefficients a channel, degree up to " + std::to_string(n - 1));
-  const Vec3d mean = light.coefficients[0] * (1 / std::sqrt(4 * std::acos(-1.0)));
+  const Vec3d mean = meanRadiance(light);
   report.fact("radiance.mean", asList(mean), "mean", vectorText(mean) + " red, green, blue");
 
   std::vector<double> energies;

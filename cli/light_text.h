@@ -1,6 +1,7 @@
 // Lights on the command line: what people type to describe them, and how they are told.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,11 @@ WeightedFile parseWeightedFile(const std::string& text);
 /// "(0.12, -0.5, 0.86)".
 std::string vectorText(const Vec3d& v);
 
-/// Windows every channel by the same factors; for Window::automatic by the strongest that a channel needs. Returns its
-/// lambda, else 0.
-double windowLight(sh::Window window, Light& light);
+/// Adds to `report` the window that damped a light, and its lambda for Window::automatic.
+void describeWindow(sh::Window window, double lambda, Report& report);
+
+/// Adds to `report` how samples are blended, and place and mean radiance of each.
+void describeRig(std::span<const LightSample> samples, const RigOptions& options, Report& report);
 
 /// Adds to `report`: order, mean radiance, share of each band in the energy, least and greatest radiance (luminance)
 /// and where, direction and |R1|/R0.

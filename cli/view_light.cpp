@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <numbers>
-#include <optional>
 
 #include "cli/format.h"
-#include "cli/light_text.h"
+#include "cli/light_options.h"
 #include "cli/options.h"
 #include "cli/verb.h"
 
@@ -21,29 +19,48 @@ namespace {
 constexpr double kSunHalfAngle = 0.2665;
 constexpr double kRadians = std::numbers::pi / 180;
 
-/// A colour of values of 0 or more, from one number or three.
-Vec3d parseColor(const std::string& name, const std::string& text) {
-  const Vec3d color = colorFrom(parseNumbers(name, text, 1, 3, "GREY or R,G,B"), 0, name);
-  if (std::min({color.x, color.y, color.z}) < 0) {
-    throw usageError(name + ": " + text + " is out of range", "give numbers of 0 or more");
-  }
-  return color;
-}
-
-/// The light turned by `turn`, and what it was made from with it.
-void turnLight(ViewLight& view, const sh::Matrix3d& turn) {
-  if (turn == sh::Matrix3d{}) return;
-  view.light = rotated(view.light, turn);
-  view.radiance = [before = std::move(view.radiance), back = sh::transposed(turn)](const Vec3d& direction) {
-    return before(back * direction);
-  };
-}
-
 RadianceFunction radianceOf(const Light& light) {
   return [light](const Vec3d& direction) { return radianceFrom(light, direction); };
 }
 
+/// The light with its bands damped. Samples of a rig are damped alike.
+ViewLight windowed(ViewLight view, sh::Window window) {
+  if (!view.rig) {
+    applyWindow(window, {&view.light, 1});
+    return view;
+  }
+  std::vector<Light> lights;
+  std::vector<LightSample> samples = view.rig->samples();
+  for (const LightSample& s : samples) lights.push_back(s.light);
+  applyWindow(window, lights);
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i].light = lights[i];
+  view.rig = std::make_shared<LightRig>(std::move(samples), view.rig->options());
+  return view;
+}
+
 }  // namespace
+
+RadianceFunction ViewLight::seenFrom(const Vec3d& place) const {
+  return source ? source : radianceOf(at(place));
+}
+
+std::vector<Rgb> ViewLight::colors(const TransferSet& transfer, std::span<const Vec3d> places,
+                                   const RelightOptions& options, const Parallel& parallel) const {
+  return rig ? relight(transfer, places, *rig, options, parallel) : relight(transfer, light, options, parallel);
+}
+
+ViewLight ViewLight::turned(const sh::Matrix3d& rotation, const Vec3d& about) const {
+  if (rotation == sh::Matrix3d{}) return *this;
+  ViewLight result = *this;
+  result.light = rotated(light, rotation);
+  if (rig) result.rig = std::make_shared<LightRig>(rotated(*rig, rotation, about));
+  if (source) {
+    result.source = [before = source, back = sh::transposed(rotation)](const Vec3d& direction) {
+      return before(back * direction);
+    };
+  }
+  return result;
+}
 
 bool isLightFile(const std::string& path) {
   return std::filesystem::path(path).extension() == ".shlight";
@@ -52,49 +69,30 @@ bool isLightFile(const std::string& path) {
 void ViewLightOptions::declare(CLI::App& app) {
   addOption(app,
             {"--light", "LIGHT",
-             "a sky (overcast, clear or partly-cloudy), white (radiance 1 from everywhere), a .shlight file, or an "
-             "image of an environment map"},
+             "a sky (overcast, clear or partly-cloudy), white (radiance 1 from everywhere), a .shlight file (one light "
+             "or a rig of local ones), or an image of an environment map"},
             name, [this](const std::string&, const std::string& text) { name = text; });
-  addOption(app,
-            {"--sun", "ALT,AZ",
-             "where the sun of a sky stands, in degrees: 0..90 above the horizon, clockwise from north (+y)"},
-            "45,0", [this](const std::string& option, const std::string& text) {
-              const auto n = parseNumbers(option, text, 2, 2, "ALTITUDE,AZIMUTH in degrees");
-              sky_.sunAltitude = n[0];
-              sky_.sunAzimuth = n[1];
-            });
+  addSkyOptions(app, sky_);
   addOption(app,
             {"--sun-irradiance", "E",
              "what the sun's disc adds to a sky on a surface that faces it: one number of 0 or more, or R,G,B"},
             "0",
             [this](const std::string& option, const std::string& text) { sunIrradiance_ = parseColor(option, text); });
-  addOption(app, {"--zenith", "L", "radiance of a sky at the zenith: one number of 0 or more, or R,G,B"}, "1",
-            [this](const std::string& option, const std::string& text) { sky_.zenith = parseColor(option, text); });
-  addOption(
-      app, {"--ground", "A", "albedo of the ground below a sky's horizon: one number in 0..1, or R,G,B"}, "0",
-      [this](const std::string& option, const std::string& text) { sky_.groundAlbedo = parseColor(option, text); });
-  addReal(app, {"--rotate", "DEG", "turns the light about the axis that points up, -360..360, counter-clockwise"},
+  addMapOptions(app, map_);
+  addReal(app,
+          {"--rotate", "DEG",
+           "turns the light about the axis that points up, -360..360, counter-clockwise; a rig about the origin"},
           turn_, -360, 360);
   addChoice<UpAxis>(app, {"--up", "AXIS", "the axis of the mesh that points up: z or y"}, up,
                     {{"z", UpAxis::z}, {"y", UpAxis::y}});
-  addChoice<sh::Window>(app,
-                        {"--window", "KIND",
-                         "damps the light's ringing: none, hann, lanczos, gauss, or auto (as little as leaves no "
-                         "negative light)"},
-                        window_,
-                        {{"none", sh::Window::none},
-                         {"hann", sh::Window::hann},
-                         {"lanczos", sh::Window::lanczos},
-                         {"gauss", sh::Window::gauss},
-                         {"auto", sh::Window::automatic}});
+  addWindow(app, "damp the light's", window_);
 }
 
 ViewLight ViewLightOptions::makeSky(int order) const {
   ViewLight view;
-  view.exact = true;
   if (name == "white") {
     view.light = constantLight(order, {1, 1, 1});
-    view.radiance = [](const Vec3d&) { return Vec3d{1, 1, 1}; };
+    view.source = [](const Vec3d&) { return Vec3d{1, 1, 1}; };
     view.description = "white light from everywhere";
     return view;
   }
@@ -108,7 +106,7 @@ ViewLight ViewLightOptions::makeSky(int order) const {
   const Vec3d fromGround = skyIrradiance(sky) * std::numbers::inv_pi;
   const Vec3d ground{sky.groundAlbedo.x * fromGround.x, sky.groundAlbedo.y * fromGround.y,
                      sky.groundAlbedo.z * fromGround.z};
-  view.radiance = [=](const Vec3d& d) {
+  view.source = [=](const Vec3d& d) {
     if (d.z < 0) return ground;
     return dot(d, sun) >= cosine ? skyRadiance(sky, d) + disc : skyRadiance(sky, d);
   };
@@ -120,8 +118,27 @@ ViewLight ViewLightOptions::makeSky(int order) const {
   return view;
 }
 
-ViewLight ViewLightOptions::readImage(int order, Session& session) const {
-  const EnvironmentMapLight map = projectEnvironmentMap(name, order, {}, session.parallel, session.progress);
+ViewLight ViewLightOptions::readFile(int order) const {
+  ViewLight view;
+  view.description = name;
+  UpAxis fileUp = UpAxis::z;
+  if (isRigFile(name)) {
+    RigFile file = readRigFile(name);
+    fileUp = file.up;
+    for (LightSample& s : file.samples) s.light = withOrder(s.light, std::min(order, s.light.order));
+    view.description +=
+        " (" + std::to_string(file.samples.size()) + " local lights, " + blendName(file.options.method) + ")";
+    view.rig = std::make_shared<LightRig>(std::move(file.samples), file.options);
+  } else {
+    const LightFile file = readLightFile(name);
+    fileUp = file.up;
+    view.light = withOrder(file.light, std::min(order, file.light.order));
+  }
+  return view.turned(sh::transposed(axesFor(fileUp)), {});
+}
+
+ViewLight ViewLightOptions::readImage(int order, bool withSource, Session& session) const {
+  const EnvironmentMapLight map = projectEnvironmentMap(name, order, map_, session.parallel, session.progress);
   for (const std::string& note : map.notes) session.warn(name + ": " + note);
   if (map.badPixels.total() > 0) {
     session.warn(name + ": " + formatCount(map.badPixels.total()) +
@@ -130,34 +147,20 @@ ViewLight ViewLightOptions::readImage(int order, Session& session) const {
   ViewLight view;
   view.light = map.light;
   view.description = name + " (" + layoutName(map.layout) + ")";
-  const auto image = LatLongImage::read(name, PixelEncoding::automatic, session.parallel.threads());
-  view.exact = image.has_value();
-  if (image) {
-    view.radiance = [image = std::make_shared<LatLongImage>(*image)](const Vec3d& d) { return Vec3d(image->from(d)); };
-  } else {
-    view.radiance = radianceOf(view.light);
+  if (withSource) {
+    const auto image = std::make_shared<MapImage>(MapImage::read(name, map_, session.parallel.threads()));
+    view.source = [image](const Vec3d& d) { return Vec3d(image->from(d)); };
   }
   return view;
 }
 
-ViewLight ViewLightOptions::make(int order, Session& session) const {
-  ViewLight view;
-  sh::Matrix3d turn = axesFor(up) * sh::rotationAboutZ(turn_ * kRadians);
-  if (name == "white" || skyNamed(name)) {
-    view = makeSky(order);
-  } else if (isLightFile(name)) {
-    const LightFile file = readLightFile(name);
-    view.light = withOrder(file.light, std::min(order, file.light.order));
-    view.radiance = radianceOf(file.light);
-    view.description = name;
-    turn = turn * sh::transposed(axesFor(file.up));
-  } else {
-    view = readImage(order, session);
-  }
-  turnLight(view, turn);
-  view.light = usedLight(view.light, order, window_);
-  if (!view.exact) view.radiance = radianceOf(view.light);
-  return view;
+ViewLight ViewLightOptions::make(int order, bool withSource, Session& session) const {
+  const bool sky = name == "white" || skyNamed(name);
+  const ViewLight view = sky                 ? makeSky(order)
+                         : isLightFile(name) ? readFile(order)
+                                             : readImage(order, withSource, session);
+  const sh::Matrix3d turn = axesFor(up) * sh::rotationAboutZ(turn_ * kRadians);
+  return windowed(view.turned(turn, {}), window_);
 }
 
 }  // namespace shbake::cli

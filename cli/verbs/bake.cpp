@@ -154,7 +154,7 @@ void Bake::run(Session& session) {
   checkPaths();
   warnOfIdleOptions(session);
   Mesh mesh = readMesh(mesh_, session.progress);
-  const std::vector<std::string> findings = describeFindings(checkMesh(mesh));
+  const std::vector<std::string> findings = describeFindings(checkMesh(mesh, session.progress));
   std::vector<Mesh> blockers;
   for (const std::string& path : blockers_) blockers.push_back(readMesh(path, session.progress));
   const BakedMesh baked = bakeMesh(std::move(mesh), blockers, options_, session.parallel, session.progress);

@@ -73,10 +73,10 @@ void reportAttributes(const Mesh& mesh, Report& report) {
   }
 }
 
-void reportMesh(const Mesh& mesh, Report& report) {
+void reportMesh(const Mesh& mesh, Progress& progress, Report& report) {
   report.data("mesh.vertices", whole(mesh.positions.size()));
   report.data("mesh.triangles", whole(mesh.triangles.size()));
-  const MeshCheck check = checkMesh(mesh);
+  const MeshCheck check = checkMesh(mesh, progress);
   report.data("mesh.closed", check.closed());
   report.fact("mesh.parts", whole(check.parts), "mesh", describeShape(check));
   if (!mesh.sourcePolygons.empty()) {
@@ -207,7 +207,7 @@ void Info::run(Session& session) {
   report.line("file", file_ + (none ? "" : ", " + formatBytes(static_cast<double>(bytes))));
   if (isBakedPly(file_)) {
     const BakedPly baked = readBakedPly(file_, session.progress);
-    reportMesh(baked.mesh, report);
+    reportMesh(baked.mesh, session.progress, report);
     reportTransfer(baked, report);
     return;
   }
@@ -215,7 +215,7 @@ void Info::run(Session& session) {
   session.display.finish();
   for (const std::string& sentence : mesh.warnings) session.warn(sentence);
   warnOfContradiction(file_, mesh, session);
-  reportMesh(mesh, report);
+  reportMesh(mesh, session.progress, report);
 }
 
 }  // namespace

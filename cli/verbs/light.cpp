@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "cli/format.h"
+#include "cli/light_options.h"
 #include "cli/light_text.h"
 #include "cli/options.h"
 #include "cli/parse.h"
@@ -14,9 +15,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An option that may be given several times, each time with one value.
-void addRepeated(CLI::App& app, const OptionText& text, std::vector<std::string>& values) {
-  app.add_option(text.names, values, text.help)->type_name(text.value)->allow_extra_args(false);
+/// A light and what it is, for the list of sources.
+struct NamedLight {
+  Light light;
+  std::string source;
+};
+
+/// A place and a file from "X,Y,Z,FILE".
+struct PlacedFile {
+  Vec3d place;
+  WeightedFile file;
+};
+
+PlacedFile parseSample(const std::string& text) {
+  std::size_t end = 0;
+  for (int comma = 0; comma < 3 && end != std::string::npos; ++comma) end = text.find(',', end + (comma > 0));
+  if (end == std::string::npos || end + 1 >= text.size()) {
+    throw usageError("--sample: '" + text + "' is not X,Y,Z,FILE", "give a place and a file, such as 0,0,1.5,hall.hdr");
+  }
+  const auto n = parseNumbers("--sample", text.substr(0, end), 3, 3, "X,Y,Z,FILE");
+  return {{n[0], n[1], n[2]}, parseWeightedFile(text.substr(end + 1))};
 }
 
 class MakeLight : public Verb {
@@ -27,17 +45,23 @@ class MakeLight : public Verb {
  private:
   void declareSources(CLI::App& app);
   void declareMaps(CLI::App& app);
+  void declareRig(CLI::App& app);
   void declareChanges(CLI::App& app);
   void checkInputs() const;
+  NamedLight read(const std::string& path, Session& session) const;
+  NamedLight readMap(const std::string& path, Session& session) const;
+  NamedLight readFile(const std::string& path, Session& session) const;
   void addFiles(Session& session);
-  void addMap(const WeightedFile& file, Session& session);
   void addSky();
   void addSimpleLights();
+  void addSamples(Session& session);
+  void turn(const sh::Matrix3d& rotation);
   void change(Session& session);
   void add(const Light& light, const Vec3d& weight, const std::string& source);
-  void note(const std::string& change) { file_.sources.push_back(change); }
+  void note(const std::string& change) { sources_.push_back(change); }
+  void write(Session& session) const;
 
-  std::vector<std::string> inputs_, discs_, parallels_, constants_, gradients_, shadows_, turns_;
+  std::vector<std::string> inputs_, discs_, parallels_, constants_, gradients_, samples_, shadows_, turns_;
   std::string output_;
   bool force_ = false;
   int order_ = 4;
@@ -47,8 +71,11 @@ class MakeLight : public Verb {
   double exposure_ = 0, rotate_ = 0;
   sh::Window window_ = sh::Window::none;
 
-  int workOrder_ = 4;  ///< above order_ where a shadow mixes bands
-  LightFile file_;
+  int workOrder_ = 4;          ///< above order_ where a shadow mixes bands
+  std::vector<Light> lights_;  ///< the one light, or that of each sample of a rig
+  std::vector<Vec3d> places_;  ///< of the samples; empty for one light
+  RigOptions blend_;
+  std::vector<std::string> sources_;
 };
 
 void MakeLight::declare(CLI::App& app) {
@@ -60,6 +87,7 @@ void MakeLight::declare(CLI::App& app) {
   addWhole(app, {"--order", "N", "bands of spherical harmonics, 1..64: N x N coefficients a channel"}, order_, 1, 64);
   declareSources(app);
   declareMaps(app);
+  declareRig(app);
   declareChanges(app);
   addSwitch(app, "--force", force_, "let the output replace one of the inputs");
 }
@@ -68,21 +96,7 @@ void MakeLight::declareSources(CLI::App& app) {
   addChoice<std::string>(
       app, {"--sky", "MODEL", "add a CIE sky: overcast, clear, partly-cloudy, or none"}, skyModel_,
       {{"none", "none"}, {"overcast", "overcast"}, {"clear", "clear"}, {"partly-cloudy", "partly-cloudy"}});
-  addOption(
-      app, {"--sun", "ALT,AZ", "where the sky's sun stands: altitude 0..90 degrees, azimuth clockwise from north (+y)"},
-      "45,0", [this](const std::string& name, const std::string& text) {
-        const auto n = parseNumbers(name, text, 2, 2, "ALTITUDE,AZIMUTH in degrees");
-        sky_.sunAltitude = n[0];
-        sky_.sunAzimuth = n[1];
-      });
-  addOption(app, {"--zenith", "L", "the sky's radiance at the zenith: grey or R,G,B, 0 or more"}, "1",
-            [this](const std::string& name, const std::string& text) {
-              sky_.zenith = colorFrom(parseNumbers(name, text, 1, 3, "GREY or R,G,B"), 0, name);
-            });
-  addOption(app, {"--ground", "A", "albedo of the ground below the sky: grey or R,G,B, 0..1"}, "0",
-            [this](const std::string& name, const std::string& text) {
-              sky_.groundAlbedo = colorFrom(parseNumbers(name, text, 1, 3, "GREY or R,G,B"), 0, name);
-            });
+  addSkyOptions(app, sky_);
   addRepeated(app,
               {"--disc", "X,Y,Z,DEG,L", "add a disc of radiance L (grey or R,G,B) within DEG (0..180) of a direction"},
               discs_);
@@ -96,22 +110,28 @@ void MakeLight::declareSources(CLI::App& app) {
 }
 
 void MakeLight::declareMaps(CLI::App& app) {
-  std::vector<std::pair<std::string, MapLayout>> layouts;
-  for (const std::string& name : layoutNames()) layouts.emplace_back(name, *layoutNamed(name));
-  std::string names;
-  for (const std::string& name : layoutNames()) names += (names.empty() ? "" : ", ") + name;
-  addChoice<MapLayout>(app, {"--layout", "NAME", "layout of the maps: " + names}, map_.layout, layouts);
+  addMapOptions(app, map_);
   addChoice<UpAxis>(app,
                     {"--up", "AXIS",
                      "axes of the light: z (maps have +z on top, +x in the centre, -y to the right) or y (+y, +x, +z)"},
                     map_.up, {{"z", UpAxis::z}, {"y", UpAxis::y}});
-  addSwitch(app, "--mirror", map_.mirror, "the maps show the world mirrored: exchange left and right");
-  addSwitch(app, "--keep-negative", map_.keepNegative, "count negative pixels as they are instead of as 0");
-  addChoice<PixelEncoding>(
+}
+
+void MakeLight::declareRig(CLI::App& app) {
+  addRepeated(app,
+              {"--sample", "X,Y,Z,FILE",
+               "make a rig of local lights: FILE (an image or light file) as it is at a place, plus all that is not a "
+               "sample; may be repeated"},
+              samples_);
+  addChoice<RigMethod>(
       app,
-      {"--encoding", "KIND", "what pixels are: linear, srgb (display values), or auto: integers srgb, floats linear"},
-      map_.encoding,
-      {{"auto", PixelEncoding::automatic}, {"linear", PixelEncoding::linear}, {"srgb", PixelEncoding::srgb}});
+      {"--blend", "KIND",
+       "light between samples: inverse-distance, or barycentric: linear in the tetrahedra that they span"},
+      blend_.method,
+      {{blendName(RigMethod::inverseDistance), RigMethod::inverseDistance},
+       {blendName(RigMethod::barycentric), RigMethod::barycentric}});
+  addReal(app, {"--power", "P", "inverse-distance: weights fall with this power of the distance, 0.1..100"},
+          blend_.power, 0.1, 100);
 }
 
 void MakeLight::declareChanges(CLI::App& app) {
@@ -122,22 +142,13 @@ void MakeLight::declareChanges(CLI::App& app) {
   addRepeated(app,
               {"--shadow", "X,Y,Z,DEG", "then block everything within DEG (0..180) of a direction; may be repeated"},
               shadows_);
-  addChoice<sh::Window>(app,
-                        {"--window", "KIND",
-                         "then damp high bands against ringing: none, hann, lanczos, gauss, or auto: just enough to "
-                         "leave nothing negative"},
-                        window_,
-                        {{"none", sh::Window::none},
-                         {"hann", sh::Window::hann},
-                         {"lanczos", sh::Window::lanczos},
-                         {"gauss", sh::Window::gauss},
-                         {"auto", sh::Window::automatic}});
+  addWindow(app, "then damp", window_);
 }
 
 void MakeLight::checkInputs() const {
   const std::string usage = "usage: shbake light FILE... -o OUT.shlight";
   const bool none = inputs_.empty() && skyModel_ == "none" && discs_.empty() && parallels_.empty() &&
-                    constants_.empty() && gradients_.empty();
+                    constants_.empty() && gradients_.empty() && samples_.empty();
   if (none) throw usageError("nothing to make light from", usage + "; or add --sky, --disc, --parallel or --constant");
   if (output_.empty()) throw usageError("no output is named", usage);
   if (fs::path(output_).extension() != ".shlight") {
@@ -146,9 +157,12 @@ void MakeLight::checkInputs() const {
                  .cause = "is not named as a light file",
                  .remedy = "name it .shlight"});
   }
-  for (const std::string& input : inputs_) {
+  std::vector<std::string> paths;
+  for (const std::string& input : inputs_) paths.push_back(parseWeightedFile(input).path);
+  for (const std::string& sample : samples_) paths.push_back(parseSample(sample).file.path);
+  for (const std::string& path : paths) {
     std::error_code missing;
-    if (force_ || !fs::equivalent(parseWeightedFile(input).path, output_, missing)) continue;
+    if (force_ || !fs::equivalent(path, output_, missing)) continue;
     throw Error({.kind = ErrorKind::usage,
                  .file = output_,
                  .cause = "would replace one of the inputs",
@@ -157,49 +171,68 @@ void MakeLight::checkInputs() const {
   checkWritable(output_);
 }
 
-void MakeLight::add(const Light& light, const Vec3d& weight, const std::string& source) {
-  addLight(file_.light, light, weight);
-  note(source + (weight == Vec3d{1, 1, 1} ? "" : ", weight " + vectorText(weight)));
+std::string weightText(const Vec3d& weight) {
+  return weight == Vec3d{1, 1, 1} ? "" : ", weight " + vectorText(weight);
 }
 
-void MakeLight::addMap(const WeightedFile& file, Session& session) {
-  const EnvironmentMapLight map =
-      projectEnvironmentMap(file.path, workOrder_, map_, session.parallel, session.progress);
+void MakeLight::add(const Light& light, const Vec3d& weight, const std::string& source) {
+  addLight(lights_[0], light, weight);
+  note(source + weightText(weight));
+}
+
+NamedLight MakeLight::readMap(const std::string& path, Session& session) const {
+  const EnvironmentMapLight map = projectEnvironmentMap(path, workOrder_, map_, session.parallel, session.progress);
   const std::string size = std::to_string(map.width) + "x" + std::to_string(map.height);
   const std::string layout = layoutName(map.layout);
-  session.report.line("map", file.path + ": " + size + ", " + layout +
+  session.report.line("map", path + ": " + size + ", " + layout +
                                  (map.layoutGuessed ? " (guessed from its shape; --layout tells otherwise)" : ""));
   for (const std::string& sentence : map.notes) session.report.line("", sentence);
   const BadPixels& bad = map.badPixels;
   if (bad.total() > 0) {
-    session.warn(file.path + ": " + formatCount(bad.nan) + " pixels are not a number, " + formatCount(bad.infinite) +
+    session.warn(path + ": " + formatCount(bad.nan) + " pixels are not a number, " + formatCount(bad.infinite) +
                  " infinite and " + formatCount(bad.negative) + " negative, the first at column " +
                  std::to_string(bad.x) + ", row " + std::to_string(bad.y) +
-                 "; NaN counts as black, infinity as 65504 " + "in half floats and 0 elsewhere, negative " +
+                 "; NaN counts as black, infinity as 65504 in half floats and 0 elsewhere, negative " +
                  (map_.keepNegative ? "as it is" : "as 0"));
   }
-  add(map.light, file.weight, fs::path(file.path).filename().string() + ": " + layout + " " + size);
+  return {map.light, fs::path(path).filename().string() + ": " + layout + " " + size};
+}
+
+NamedLight MakeLight::readFile(const std::string& path, Session& session) const {
+  const LightFile file = readLightFile(path);
+  if (file.light.order < order_) {
+    session.warn(path + ": has order " + std::to_string(file.light.order) + ", its higher bands are zero");
+  }
+  // The file says which axes it has: another --up turns it.
+  const bool same = file.up == map_.up;
+  return {same ? file.light : rotated(file.light, axesFor(map_.up) * sh::transposed(axesFor(file.up))),
+          fs::path(path).filename().string() + ": order " + std::to_string(file.light.order)};
+}
+
+NamedLight MakeLight::read(const std::string& path, Session& session) const {
+  return fs::path(path).extension() == ".shlight" ? readFile(path, session) : readMap(path, session);
 }
 
 void MakeLight::addFiles(Session& session) {
   for (const std::string& input : inputs_) {
     const WeightedFile file = parseWeightedFile(input);
-    if (fs::path(file.path).extension() != ".shlight") {
-      addMap(file, session);
-      continue;
-    }
-    const LightFile other = readLightFile(file.path);
-    if (other.up != map_.up) {
-      throw Error({.file = file.path,
-                   .place = "field \"axes\"",
-                   .cause = "its up axis is not that of --up",
-                   .remedy = "give the other --up, or turn it with 'shbake sh'"});
-    }
-    if (other.light.order < order_) {
-      session.warn(file.path + ": has order " + std::to_string(other.light.order) + ", its higher bands are zero");
-    }
-    add(other.light, file.weight,
-        fs::path(file.path).filename().string() + ": order " + std::to_string(other.light.order));
+    const NamedLight light = read(file.path, session);
+    add(light.light, file.weight, light.source);
+  }
+}
+
+/// Turns the sum into a rig: each sample is the sum and the sample's own light.
+void MakeLight::addSamples(Session& session) {
+  if (samples_.empty()) return;
+  const Light sum = lights_[0];
+  lights_.clear();
+  for (const std::string& text : samples_) {
+    const PlacedFile sample = parseSample(text);
+    const NamedLight light = read(sample.file.path, session);
+    places_.push_back(sample.place);
+    lights_.push_back(sum);
+    addLight(lights_.back(), light.light, sample.file.weight);
+    note("sample at " + vectorText(sample.place) + ": " + light.source + weightText(sample.file.weight));
   }
 }
 
@@ -237,50 +270,64 @@ void MakeLight::addSimpleLights() {
   }
 }
 
+void MakeLight::turn(const sh::Matrix3d& rotation) {
+  for (Light& light : lights_) light = rotated(light, rotation);
+  for (Vec3d& place : places_) place = rotation * place;
+}
+
 void MakeLight::change(Session& session) {
-  Light& light = file_.light;
   if (exposure_ != 0) {
-    light = scaled(light, Vec3d{1, 1, 1} * std::exp2(exposure_));
+    for (Light& light : lights_) light = scaled(light, Vec3d{1, 1, 1} * std::exp2(exposure_));
     note("exposure " + formatNumber(exposure_));
   }
   if (rotate_ != 0) {
     const Vec3d up = map_.up == UpAxis::z ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};
-    light = rotated(light, sh::rotationAbout(up, rotate_ * std::acos(-1.0) / 180));
+    turn(sh::rotationAbout(up, rotate_ * std::acos(-1.0) / 180));
     note("rotate " + formatNumber(rotate_));
   }
   for (const std::string& text : turns_) {
-    light = rotated(light, parseTurn("--turn", text));
+    turn(parseTurn("--turn", text));
     note("turn " + text);
   }
   for (const std::string& text : shadows_) {
     const auto n = parseNumbers("--shadow", text, 4, 4, "X,Y,Z,DEG");
-    light = withProxyShadow(light, {n[0], n[1], n[2]}, n[3], light.order);
+    for (Light& light : lights_) light = withProxyShadow(light, {n[0], n[1], n[2]}, n[3], light.order);
     note("shadow " + text);
   }
-  light = withOrder(light, order_);
-  const double lambda = windowLight(window_, light);
+  for (Light& light : lights_) light = withOrder(light, order_);
   if (window_ == sh::Window::none) return;
-  const std::string name(sh::windowName(window_));
-  note("window " + name);
-  session.report.fact("window.lambda", lambda, "window",
-                      name + (window_ == sh::Window::automatic ? ", lambda " + formatNumber(lambda, 4) : ""));
+  describeWindow(window_, applyWindow(window_, lights_), session.report);
+  note("window " + std::string(sh::windowName(window_)));
+}
+
+void MakeLight::write(Session& session) const {
+  if (places_.empty()) {
+    writeLightFile(output_, {lights_[0], map_.up, sources_});
+    describeLight(lights_[0], session.report);
+    return;
+  }
+  RigFile file;
+  for (std::size_t i = 0; i < places_.size(); ++i) file.samples.push_back({places_[i], lights_[i]});
+  file.options = blend_;
+  file.up = map_.up;
+  file.sources = sources_;
+  writeRigFile(output_, file);
+  describeRig(file.samples, file.options, session.report);
 }
 
 void MakeLight::run(Session& session) {
   checkInputs();
   // A shadow's edge brings bands of the light above the output's down into it.
   workOrder_ = shadows_.empty() ? order_ : std::min(2 * order_ + 8, kMaxLightOrder);
-  file_ = {};
-  file_.light = Light(workOrder_);
-  file_.up = map_.up;
+  lights_ = {Light(workOrder_)};
   addFiles(session);
   addSky();
   addSimpleLights();
+  addSamples(session);
   change(session);
-  writeLightFile(output_, file_);
   session.display.finish();
-  describeLight(file_.light, session.report);
-  session.report.data("sources", file_.sources);
+  write(session);
+  session.report.data("sources", sources_);
   session.report.fact("output.file", output_, "output", output_);
 }
 
@@ -290,13 +337,14 @@ extern const VerbEntry lightVerb;
 const VerbEntry lightVerb{
     "light", "[FILE...] -o FILE", "make a light file from probes, skies and simple lights",
     "Projects environment maps, CIE skies and simple lights onto spherical harmonics, sums them and writes a light "
-    "file. "
-    "Every pixel is integrated over the part of the sphere that it covers; nothing is clamped unless it is said.\n"
+    "file. Every pixel is integrated over the part of the sphere that it covers; nothing is clamped unless it is "
+    "said.\n"
     "\n"
     "Examples:\n"
     "  shbake light room.hdr -o room.shlight --window auto\n"
     "  shbake light -o noon.shlight --sky clear --sun 60,180 --ground 0.2\n"
-    "  shbake light a.exr@0.7 b.shlight@0.3 -o mixed.shlight --rotate 90",
+    "  shbake light a.exr@0.7 b.shlight@0.3 -o mixed.shlight --rotate 90\n"
+    "  shbake light --sample 0,0,1.5,hall.hdr --sample 6,0,1.5,porch.hdr -o house.shlight",
     [] { return std::unique_ptr<Verb>(std::make_unique<MakeLight>()); }};
 
 }  // namespace shbake::cli

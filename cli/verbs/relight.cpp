@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "cli/format.h"
+#include "cli/light_options.h"
 #include "cli/options.h"
-#include "cli/parse.h"
 #include "cli/verb.h"
 #include "cli/view_light.h"
 
@@ -26,8 +26,8 @@ class Relight : public Verb {
 
   std::string baked_, output_;
   ViewLightOptions light_;
-  ToneMap tone_;
-  bool automatic_ = true, floats_ = false, clamp_ = false, dropSh_ = false, ascii_ = false, force_ = false;
+  DisplayOptions display_;
+  bool floats_ = false, clamp_ = false, dropSh_ = false, ascii_ = false, force_ = false;
 };
 
 void Relight::declare(CLI::App& app) {
@@ -38,13 +38,7 @@ void Relight::declare(CLI::App& app) {
       app,
       {"--colors", "KIND", "bytes: 8-bit sRGB, exposed and tone-mapped for display; floats: linear radiance as it is"},
       floats_, {{"bytes", false}, {"floats", true}});
-  addOption(app, {"--exposure", "EV", "brightens bytes by 2^EV, -100..100, or auto: the brightest 1 % become white"},
-            "auto", [this](const std::string& name, const std::string& text) {
-              automatic_ = text == "auto";
-              if (!automatic_) tone_.exposure = parseReal(name, text, -100, 100);
-            });
-  addChoice<ToneCurve>(app, {"--tone", "CURVE", "how bytes end at white: clip, reinhard or filmic"}, tone_.curve,
-                       {{"clip", ToneCurve::clip}, {"reinhard", ToneCurve::reinhard}, {"filmic", ToneCurve::filmic}});
+  display_.declare(app, "bytes");
   addSwitch(app, "--clamp", clamp_, "set negative radiance in floats to 0 (bytes hold none anyway)");
   addSwitch(app, "--drop-sh", dropSh_, "leave the transfer out of the output, so that only colours remain");
   addSwitch(app, "--ascii", ascii_, "write the file as text instead of binary");
@@ -84,13 +78,13 @@ void Relight::setColors(BakedPly& baked, const std::vector<Rgb>& radiance, const
   } else {
     mesh.vertexColors.clear();
     for (const Rgb& c : radiance) {
-      const Rgb d = displayLight(c, tone_);
+      const Rgb d = displayLight(c, display_.tone);
       mesh.vertexColors.emplace_back(static_cast<float>(encodedByte(d.x)) / 255,
                                      static_cast<float>(encodedByte(d.y)) / 255,
                                      static_cast<float>(encodedByte(d.z)) / 255);
     }
     mesh.vertexColorEncoding = ColorEncoding::srgb;
-    comment += "sRGB, exposure " + formatNumber(tone_.exposure, 4);
+    comment += "sRGB, exposure " + formatNumber(display_.tone.exposure, 4);
   }
   std::string tidy = light;
   std::replace_if(
@@ -119,14 +113,15 @@ void Relight::run(Session& session) {
   for (const std::string& note : baked.notes) session.warn(baked_ + ": " + note);
   if (!baked.facts.albedo.included) session.warn(baked_ + ": the albedo is not part of the transfer: colours lack it");
   const TransferSet& set = baked.transfer;
-  const ViewLight light = light_.make(set.order, session);
+  const ViewLight light = light_.make(set.order, false, session);
 
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<Rgb> radiance = relight(set, light.light, {.clampNegative = floats_ && clamp_}, session.parallel);
+  const std::vector<Rgb> radiance =
+      light.colors(set, baked.mesh.positions, {.clampNegative = floats_ && clamp_}, session.parallel);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::vector<Rgb> audited = clamp_ ? relight(set, light.light, {}, session.parallel) : radiance;
+  const std::vector<Rgb> audited = clamp_ ? light.colors(set, baked.mesh.positions, {}, session.parallel) : radiance;
   const NegativeAudit audit = auditNegatives(baked.mesh, audited);
-  if (automatic_) tone_.exposure = automaticExposure(radiance, vertexAreas(baked.mesh));
+  if (display_.automatic) display_.tone.exposure = automaticExposure(radiance, vertexAreas(baked.mesh));
 
   setColors(baked, radiance, light.description, session);
   if (dropSh_) {
@@ -138,15 +133,18 @@ void Relight::run(Session& session) {
   Report& report = session.report;
   report.data("input.file", baked_);
   report.fact("light", light.description, "light", light.description);
-  report.fact("order", std::int64_t(light.light.order), "bands",
-              std::to_string(light.light.order) + " of " + std::to_string(set.order) + " that were baked");
+  report.fact("order", std::int64_t(light.order()), "bands",
+              std::to_string(light.order()) + " of " + std::to_string(set.order) + " that were baked");
   reportNegatives(audit, report);
-  if (!floats_) report.fact("exposure", tone_.exposure, "exposure", formatNumber(tone_.exposure, 3) + " EV");
-  const double products = 3.0 * light.light.order * light.light.order * static_cast<double>(set.size());
+  if (!floats_)
+    report.fact("exposure", display_.tone.exposure, "exposure", formatNumber(display_.tone.exposure, 3) + " EV");
   report.data("seconds", seconds);
-  report.fact("multiply_adds_per_second", products / seconds, "rate",
-              formatShort(products / seconds) + " multiply-adds/s on " + std::to_string(session.parallel.threads()) +
-                  (session.parallel.threads() == 1 ? " thread" : " threads"));
+  if (!light.rig) {
+    const double products = 3.0 * light.order() * light.order() * static_cast<double>(set.size());
+    report.fact("multiply_adds_per_second", products / seconds, "rate",
+                formatShort(products / seconds) + " multiply-adds/s on " + std::to_string(session.parallel.threads()) +
+                    (session.parallel.threads() == 1 ? " thread" : " threads"));
+  }
   report.fact("output.file", output_, "output", output_);
 }
 

@@ -5,8 +5,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <numbers>
+#include <optional>
 
+#include "cli/baked_scene.h"
 #include "cli/format.h"
+#include "cli/light_options.h"
 #include "cli/light_text.h"
 #include "cli/options.h"
 #include "cli/parse.h"
@@ -21,6 +24,12 @@ namespace fs = std::filesystem;
 enum class BackgroundKind { gradient, light, plain };
 enum class Turning { camera, light };
 
+/// A mesh to be drawn and the light for its bands.
+struct LitScene {
+  BakedScene scene;
+  ViewLight light;
+};
+
 class Render : public Verb {
  public:
   void declare(CLI::App& app) override;
@@ -33,9 +42,8 @@ class Render : public Verb {
   bool drawsLight() const;
   void drawLight(Session& session);
   void drawMeshes(Session& session);
-  std::vector<Picture> drawPanels(const std::vector<BakedPly>& baked, const std::vector<ViewLight>& lights, double turn,
-                                  Session& session);
-  std::vector<std::string> captionsOf(const std::vector<BakedPly>& baked) const;
+  std::vector<Picture> drawPanels(const std::vector<LitScene>& scenes, double turn, Session& session) const;
+  std::vector<std::string> captionsOf(std::vector<std::string> titles) const;
   std::string framePath(int frame) const;
 
   std::vector<std::string> files_;
@@ -43,10 +51,10 @@ class Render : public Verb {
   ViewLightOptions light_;
   CameraOptions camera_;
   RenderOptions render_;
-  ToneMap tone_;
+  DisplayOptions display_;
+  std::optional<Rgb> ground_;
   BackgroundKind background_ = BackgroundKind::gradient;
   Turning turning_ = Turning::camera;
-  bool automatic_ = true;
   int frames_ = 0, order_ = 5;
 };
 
@@ -93,16 +101,10 @@ void Render::declareCamera(CLI::App& app) {
 }
 
 void Render::declareLook(CLI::App& app) {
-  addOption(app, {"--exposure", "EV", "brightens by 2^EV, -100..100, or auto: the brightest 1 % become white"}, "auto",
-            [this](const std::string& name, const std::string& text) {
-              automatic_ = text == "auto";
-              if (!automatic_) tone_.exposure = parseReal(name, text, -100, 100);
-            });
-  addChoice<ToneCurve>(app, {"--tone", "CURVE", "how a .png ends at white: clip, reinhard or filmic"}, tone_.curve,
-                       {{"clip", ToneCurve::clip}, {"reinhard", ToneCurve::reinhard}, {"filmic", ToneCurve::filmic}});
+  display_.declare(app, "pictures");
   addOption(app,
             {"--background", "B",
-             "what is behind: gradient, light (what shines, exact where that is known), or a colour R,G,B in 0..1"},
+             "what is behind: gradient, light (what shines: the sky or the image itself), or a colour R,G,B in 0..1"},
             "gradient", [this](const std::string& name, const std::string& text) {
               background_ = text == "gradient" ? BackgroundKind::gradient
                             : text == "light"  ? BackgroundKind::light
@@ -110,6 +112,11 @@ void Render::declareLook(CLI::App& app) {
               if (background_ != BackgroundKind::plain) return;
               render_.background.top = render_.background.bottom = parseRgb(name, text);
             });
+  addOption(app,
+            {"--ground-plane", "A",
+             "stand the mesh on a plane of this albedo, R or R,G,B in 0..1, that shows its shadow and what it reflects "
+             "(the mesh itself stays as it was baked)"},
+            "none", [this](const std::string& name, const std::string& text) { ground_ = parseRgb(name, text); });
   addOption(app,
             {"--captions", "A,B,...", "texts below the pictures; auto: kinds of transfer of several files, or none"},
             captions_, [this](const std::string&, const std::string& text) { captions_ = text; });
@@ -130,6 +137,7 @@ void Render::checkOptions() const {
   pictureFormatOf(output_);
   if (frames_ == 1) throw usageError("--turntable: 1 is out of range", "give 2 to 9999 frames");
   if (frames_ > 0 && drawsLight()) throw usageError("--turntable turns meshes, and none is given");
+  if (ground_ && drawsLight()) throw usageError("--ground-plane is for meshes, and none is given");
   checkWritable(frames_ > 0 ? framePath(0) : output_);
 }
 
@@ -140,16 +148,11 @@ std::string Render::framePath(int frame) const {
   return (path.parent_path() / (path.stem().string() + number + path.extension().string())).string();
 }
 
-/// The captions for the panels; none for a single one, unless they were given.
-std::vector<std::string> Render::captionsOf(const std::vector<BakedPly>& baked) const {
+/// The captions for panels of these titles; none for a single one, unless they were given.
+std::vector<std::string> Render::captionsOf(std::vector<std::string> titles) const {
+  if (captions_ == "none" || (captions_ == "auto" && titles.size() == 1)) return {};
+  if (captions_ == "auto") return titles;
   std::vector<std::string> captions;
-  if (captions_ == "none" || (captions_ == "auto" && baked.size() == 1)) return captions;
-  if (captions_ == "auto") {
-    for (std::size_t i = 0; i < baked.size(); ++i) {
-      captions.push_back(baked[i].stated ? transferName(baked[i].facts.kind) : fs::path(files_[i]).stem().string());
-    }
-    return captions;
-  }
   for (std::size_t begin = 0; begin <= captions_.size();) {
     const std::size_t end = std::min(captions_.find(',', begin), captions_.size());
     captions.push_back(captions_.substr(begin, end - begin));
@@ -158,42 +161,52 @@ std::vector<std::string> Render::captionsOf(const std::vector<BakedPly>& baked) 
   return captions;
 }
 
+/// The middle of the bounding box.
+Vec3d centreOf(const std::vector<Vec3d>& points) {
+  Vec3d low = points.at(0), high = low;
+  for (const Vec3d& p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return 0.5 * (low + high);
+}
+
 /// One picture for each mesh, all with the same camera and exposure, everything turned by `turn` degrees.
-std::vector<Picture> Render::drawPanels(const std::vector<BakedPly>& baked, const std::vector<ViewLight>& lights,
-                                        double turn, Session& session) {
+std::vector<Picture> Render::drawPanels(const std::vector<LitScene>& scenes, double turn, Session& session) const {
   CameraOptions options = camera_;
   options.up = light_.up;
   options.aspect = static_cast<double>(render_.width) / render_.height;
   if (turning_ == Turning::camera) options.view.azimuth += turn;
   std::vector<Vec3d> points;
-  for (const BakedPly& b : baked) points.insert(points.end(), b.mesh.positions.begin(), b.mesh.positions.end());
+  for (const LitScene& s : scenes) {
+    points.insert(points.end(), s.scene.mesh().positions.begin(), s.scene.mesh().positions.end());
+  }
   const Camera camera = fitCamera(points, options);
   const double angle = turning_ == Turning::light ? turn * std::numbers::pi / 180 : 0;
   const sh::Matrix3d rotation = sh::rotationAbout(axesFor(light_.up) * Vec3d{0, 0, 1}, angle);
 
   std::vector<Picture> panels;
-  for (std::size_t i = 0; i < baked.size(); ++i) {
-    const std::vector<Rgb> colors = relight(
-        baked[i].transfer, angle == 0 ? lights[i].light : rotated(lights[i].light, rotation), {}, session.parallel);
+  for (const LitScene& s : scenes) {
+    const Vec3d centre = centreOf(s.scene.mesh().positions);
+    const ViewLight light = angle == 0 ? s.light : s.light.turned(rotation, centre);
     RenderOptions look = render_;
-    if (pictureFormatOf(output_) == PictureFormat::png) look.tone = tone_;
+    if (pictureFormatOf(output_) == PictureFormat::png) look.tone = display_.tone;
     if (background_ == BackgroundKind::light) {
-      look.background.radiance = [&, back = sh::transposed(rotation)](const Vec3d& d) {
-        return Rgb(lights[i].radiance(back * d));
-      };
+      look.background.radiance = [seen = light.seenFrom(centre)](const Vec3d& d) { return Rgb(seen(d)); };
     }
-    panels.push_back(render(baked[i].mesh, colors, camera, look, session.parallel));
+    const BakedScene::Drawn drawn = s.scene.drawn(light, camera, session.parallel);
+    panels.push_back(render(drawn.mesh, drawn.colors, camera, look, session.parallel));
   }
   return panels;
 }
 
 /// The exposure that suits all meshes together, before anything turns.
-double exposureOf(const std::vector<BakedPly>& baked, const std::vector<ViewLight>& lights, const Parallel& parallel) {
+double exposureOf(const std::vector<LitScene>& scenes, const Parallel& parallel) {
   std::vector<Rgb> colors;
   std::vector<double> areas;
-  for (std::size_t i = 0; i < baked.size(); ++i) {
-    const std::vector<Rgb> c = relight(baked[i].transfer, lights[i].light, {}, parallel);
-    const std::vector<double> a = vertexAreas(baked[i].mesh);
+  for (const LitScene& s : scenes) {
+    const std::vector<Rgb> c = s.scene.colors(s.light, parallel);
+    const std::vector<double> a = vertexAreas(s.scene.mesh());
     colors.insert(colors.end(), c.begin(), c.end());
     areas.insert(areas.end(), a.begin(), a.end());
   }
@@ -201,54 +214,63 @@ double exposureOf(const std::vector<BakedPly>& baked, const std::vector<ViewLigh
 }
 
 void Render::drawMeshes(Session& session) {
-  std::vector<BakedPly> baked;
-  std::vector<ViewLight> lights;
+  std::vector<LitScene> scenes;
+  std::vector<std::string> titles;
   for (const std::string& file : files_) {
-    baked.push_back(readBakedPly(file, session.progress));
-    for (const std::string& note : baked.back().notes) session.warn(file + ": " + note);
-    const bool same = !lights.empty() && baked.back().transfer.order == baked.front().transfer.order;
-    lights.push_back(same ? lights.front() : light_.make(baked.back().transfer.order, session));
+    BakedScene scene(file, session);
+    const int order = scene.transfer().order;
+    const bool same = !scenes.empty() && order == scenes.front().scene.transfer().order;
+    titles.push_back(scene.title());
+    ViewLight light = same ? scenes.front().light : light_.make(order, background_ == BackgroundKind::light, session);
+    scenes.push_back({std::move(scene), std::move(light)});
   }
-  const std::vector<std::string> captions = captionsOf(baked);
-  if (automatic_) tone_.exposure = exposureOf(baked, lights, session.parallel);
+  const std::vector<std::string> captions = captionsOf(titles);
+  if (ground_) {
+    for (LitScene& s : scenes) s.scene.addGround(*ground_, light_.up, session);
+  }
+  if (display_.automatic) display_.tone.exposure = exposureOf(scenes, session.parallel);
   const int frames = std::max(frames_, 1);
   session.progress.begin("drawing", frames, "pictures");
   for (int frame = 0; frame < frames; ++frame) {
-    const std::vector<Picture> panels = drawPanels(baked, lights, 360.0 * frame / frames, session);
+    const std::vector<Picture> panels = drawPanels(scenes, 360.0 * frame / frames, session);
     writePicture(frames_ > 0 ? framePath(frame) : output_, sideBySide(panels, captions));
     session.progress.advance(1);
   }
   session.progress.end();
   session.display.finish();
-  session.report.fact("light", lights.front().description, "light", lights.front().description);
-  for (std::size_t i = 0; i < baked.size(); ++i) {
-    const NegativeAudit audit =
-        auditNegatives(baked[i].mesh, relight(baked[i].transfer, lights[i].light, {}, session.parallel));
+  const std::string& description = scenes.front().light.description;
+  session.report.fact("light", description, "light", description);
+  for (const LitScene& s : scenes) {
+    const NegativeAudit audit = auditNegatives(s.scene.mesh(), s.scene.colors(s.light, session.parallel));
     if (audit.worst >= 0) continue;
-    session.warn(files_[i] + ": " + formatPercent(audit.areaShare) +
+    session.warn(s.scene.path() + ": " + formatPercent(audit.areaShare) +
                  " of the surface has negative radiance, drawn black where it is; --window auto damps it");
   }
 }
 
 void Render::drawLight(Session& session) {
   if (!files_.empty()) light_.name = files_[0];
-  const int order = isLightFile(light_.name) ? readLightFile(light_.name).light.order : order_;
-  const ViewLight light = light_.make(order, session);
-  if (automatic_) tone_.exposure = automaticExposure(light.light);
-  const auto coefficients = [&light](const Vec3d& d) { return radianceFrom(light.light, d); };
+  const ViewLight light = light_.make(isLightFile(light_.name) ? kMaxLightOrder : order_, true, session);
+  std::vector<LightSample> samples{{Vec3d{}, light.light}};
+  if (light.rig) samples = light.rig->samples();
+  if (display_.automatic) display_.tone.exposure = automaticExposure(samples[0].light);
   std::vector<Picture> panels;
-  std::vector<std::string> captions;
-  if (light.exact) {
-    panels.push_back(lightPicture(light.radiance, render_.height, tone_, session.parallel));
-    captions.push_back("source");
+  std::vector<std::string> titles;
+  const auto draw = [&](const RadianceFunction& radiance, const std::string& title) {
+    panels.push_back(lightPicture(radiance, render_.height, render_.samples, display_.tone, session.parallel));
+    titles.push_back(title);
+  };
+  if (light.source) draw(light.source, "source");
+  for (const LightSample& s : samples) {
+    draw([&s](const Vec3d& d) { return radianceFrom(s.light, d); },
+         light.rig ? "at " + vectorText(s.position) : "order " + std::to_string(light.order()));
   }
-  panels.push_back(lightPicture(coefficients, render_.height, tone_, session.parallel));
-  captions.push_back("order " + std::to_string(light.light.order));
-  if (captions_ != "auto") captions = captionsOf(std::vector<BakedPly>(panels.size()));
+  std::vector<std::string> captions = captionsOf(titles);
+  if (captions_ == "auto") captions = titles;
   writePicture(output_, sideBySide(panels, captions));
   session.display.finish();
   session.report.fact("light", light.description, "light", light.description);
-  describeLight(light.light, session.report);
+  if (!light.rig) describeLight(light.light, session.report);
 }
 
 void Render::run(Session& session) {
@@ -258,7 +280,8 @@ void Render::run(Session& session) {
   } else {
     drawMeshes(session);
   }
-  session.report.fact("exposure", tone_.exposure, "exposure", formatNumber(tone_.exposure, 3) + " EV");
+  const double exposure = display_.tone.exposure;
+  session.report.fact("exposure", exposure, "exposure", formatNumber(exposure, 3) + " EV");
   session.report.fact("output.file", output_, "output", frames_ > 0 ? framePath(0) + " and on" : output_);
 }
 
@@ -272,6 +295,7 @@ const VerbEntry renderVerb{
     "\n"
     "Examples:\n"
     "  shbake render bunny.ply --light clear --sun 40,150 -o bunny.png\n"
+    "  shbake render bunny.ply --light probe.exr --background light --ground-plane 0.4 -o scene.png\n"
     "  shbake render unshadowed.ply shadowed.ply --light probe.exr -o both.png\n"
     "  shbake render probe.exr --order 4 -o light.png",
     [] { return std::unique_ptr<Verb>(std::make_unique<Render>()); }};

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "cli/format.h"
+#include "cli/light_options.h"
 #include "cli/light_text.h"
 #include "cli/options.h"
 #include "cli/parse.h"
@@ -107,9 +108,7 @@ void Calculate::declare(CLI::App& app) {
                          "convention of a text: shbake (real, orthonormal, no Condon-Shortley sign, index l(l+1)+m), "
                          "condon-shortley, or geodesy (4 pi normalised)"},
                         from_, kConventions);
-  app.add_option("--turn", turns_, "turn by an angle in degrees about an axis; may be repeated")
-      ->type_name("X,Y,Z,DEG")
-      ->allow_extra_args(false);
+  addRepeated(app, {"--turn", "X,Y,Z,DEG", "turn by an angle in degrees about an axis; may be repeated"}, turns_);
   addChoice<std::string>(app, {"--mirror", "AXIS", "then mirror: exchange the sign of x, y or z, or none"}, mirror_,
                          {{"none", "none"}, {"x", "x"}, {"y", "y"}, {"z", "z"}});
   addText(app,
@@ -119,15 +118,9 @@ void Calculate::declare(CLI::App& app) {
             [this](const std::string& name, const std::string& text) {
               order_ = static_cast<int>(parseWhole(name, text, 1, 64));
             });
-  addChoice<sh::Window>(app, {"--window", "KIND", "then damp high bands: none, hann, lanczos, gauss or auto"}, window_,
-                        {{"none", sh::Window::none},
-                         {"hann", sh::Window::hann},
-                         {"lanczos", sh::Window::lanczos},
-                         {"gauss", sh::Window::gauss},
-                         {"auto", sh::Window::automatic}});
-  app.add_option("--at", directions_, "tell radiance from, and irradiance at, a direction; may be repeated")
-      ->type_name("X,Y,Z")
-      ->allow_extra_args(false);
+  addWindow(app, "then damp", window_);
+  addRepeated(app, {"--at", "X,Y,Z", "tell radiance from, and irradiance at, a direction; may be repeated"},
+              directions_);
   addSwitch(app, "--print", print_, "print the coefficients, a row for each");
   addChoice<Convention>(app, {"--to", "NAME", "convention of --print: shbake, condon-shortley or geodesy"}, to_,
                         kConventions);
@@ -181,11 +174,8 @@ void Calculate::calculate(Session& session) {
   if (!factor_.empty()) multiply();
   if (order_ > 0) file_.light = withOrder(file_.light, order_);
   if (window_ == sh::Window::none) return;
-  const double lambda = windowLight(window_, file_.light);
-  const std::string name(sh::windowName(window_));
-  file_.sources.push_back("window " + name);
-  session.report.fact("window.lambda", lambda, "window",
-                      name + (window_ == sh::Window::automatic ? ", lambda " + formatNumber(lambda, 4) : ""));
+  describeWindow(window_, applyWindow(window_, {&file_.light, 1}), session.report);
+  file_.sources.push_back("window " + std::string(sh::windowName(window_)));
 }
 
 void Calculate::describeDirections(Report& report) const {

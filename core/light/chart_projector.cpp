@@ -16,7 +16,6 @@ namespace {
 using std::numbers::pi;
 
 constexpr int kMaxTile = 64;
-constexpr int kLeastAngular = 4;
 
 /// How fast y_lm times the solid angle per area grows off the real axes. On a cube face the angle is atan(s), whose
 /// imaginary part stays below atanh |y|, and the density is (1 + s^2)^(-3/2); both have their singularity at |y| = 1.
@@ -90,20 +89,8 @@ struct ChartProjector::Scratch {
 
 ChartProjector::ChartProjector(const MapShape& shape, int order) : shape_(shape), order_(order) {
   const bool angular = shape.layout == MapLayout::angular;
-  if (angular) {
-    const std::string place = std::to_string(shape.width) + "x" + std::to_string(shape.height) + " pixels";
-    if (shape.width != shape.height) {
-      throw Error({.place = place, .cause = "an angular map is square", .remedy = "name another layout"});
-    }
-    if (shape.width < kLeastAngular) {
-      throw Error(
-          {.place = place, .cause = "an angular map has at least 4 pixels across", .remedy = "give a larger map"});
-    }
-    shape_.border = false;
-    charts_.push_back({0, 0, shape.width, {1, 0, 0}, {0, -1, 0}, {0, 0, 1}});
-  } else {
-    charts_ = cubeFaces(shape.layout, shape.width, shape.height);
-  }
+  if (angular) shape_.border = false;
+  charts_ = mapCharts(shape.layout, shape.width, shape.height);
   size_ = charts_[0].size;
   if (shape_.border && size_ < 2) {
     throw Error({.place = "header", .cause = "a map with pixels on its edge needs 2 pixels across a face"});

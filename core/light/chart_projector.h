@@ -12,8 +12,7 @@ namespace shbake {
 /// dozen multiplications a channel, and y_lm is evaluated at the nodes alone. The rim of an angular map is cut exactly.
 class ChartProjector : public MapProjector {
  public:
-  /// Throws an Error without a file name when the shape does not fit the layout: cubeFaces(), or an angular map that is
-  /// not square or has less than 4 pixels across.
+  /// Throws an Error without a file name when the shape does not fit the layout (mapCharts()).
   ChartProjector(const MapShape& shape, int order);
 
   std::vector<RowStrip> strips() const override;

@@ -15,30 +15,6 @@ namespace {
 /// where OpenImageIO hands them over.
 constexpr std::size_t kChunkPixels = (std::size_t(8) << 20) / sizeof(Rgb);
 
-/// Adds the file's name to an Error that has none.
-[[noreturn]] void rethrowNaming(const Error& error, const std::string& name) {
-  Error::Parts parts = error.parts();
-  parts.file = name;
-  throw Error(parts);
-}
-
-void chooseLayout(const MapRows& rows, const EnvironmentMapOptions& options, EnvironmentMapLight& result) {
-  if (options.layout != MapLayout::automatic) {
-    result.layout = options.layout;
-    return;
-  }
-  const std::optional<MapLayout> guess = rows.layout ? rows.layout : guessLayout(rows.width, rows.height);
-  if (!guess) {
-    throw Error({.file = rows.name,
-                 .place = std::to_string(rows.width) + "x" + std::to_string(rows.height) + " pixels",
-                 .cause = "width : height does not tell the layout (2:1 lat-long, 1:1 angular, 4:3 and 3:4 cube "
-                          "crosses, 6:1 and 1:6 cube strips)",
-                 .remedy = "name the layout"});
-  }
-  result.layout = *guess;
-  result.layoutGuessed = !rows.layout;
-}
-
 /// How many of the strips from `first` on fit a chunk, ending where the file's blocks of rows do if possible: 1 or
 /// more.
 std::size_t stripsOfChunk(const std::vector<RowStrip>& strips, std::size_t first, const MapRows& rows) {
@@ -121,7 +97,9 @@ EnvironmentMapLight projectEnvironmentMap(const MapRows& rows, int order, const 
   result.width = rows.width;
   result.height = rows.height;
   result.notes = rows.notes;
-  chooseLayout(rows, options, result);
+  const ChosenLayout chosen = chooseLayout(rows, options.layout);
+  result.layout = chosen.layout;
+  result.layoutGuessed = chosen.guessed;
 
   std::unique_ptr<MapProjector> projector;
   try {

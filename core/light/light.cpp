@@ -1,6 +1,7 @@
 // Operations on light in spherical harmonics: all linear, band by band.
 #include "light/light.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -107,6 +108,24 @@ Light withOrder(const Light& light, int order) {
     result.coefficients[i] = light.coefficients[i];
   }
   return result;
+}
+
+double applyWindow(sh::Window window, std::span<Light> lights) {
+  if (window == sh::Window::none || lights.empty()) return 0;
+  const int order = lights.front().order;
+  double lambda = 0;
+  for (const Light& light : lights) {
+    if (light.order != order) throw usageError("lights to be windowed together differ in order");
+    for (int c = 0; c < 3 && window == sh::Window::automatic; ++c) {
+      lambda = std::max(lambda, sh::automaticLambda(order, light.channel(c)));
+    }
+  }
+  const std::vector<double> factors =
+      window == sh::Window::automatic ? sh::laplacianFactors(lambda, order) : sh::windowFactors(window, order);
+  for (Light& light : lights) {
+    for (int i = 0; i < sh::coefficientCount(order); ++i) light.coefficients[i] *= factors[sh::degreeOf(i)];
+  }
+  return lambda;
 }
 
 Vec3d radianceFrom(const Light& light, const Vec3d& direction) {

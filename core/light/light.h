@@ -7,6 +7,7 @@
 #include "base/vec3.h"
 #include "sh/basis.h"
 #include "sh/matrix3.h"
+#include "sh/window.h"
 #include "sh/z_rotation.h"
 
 namespace shbake {
@@ -50,6 +51,11 @@ Light mirrored(const Light& light, MirrorAxis axis);
 
 /// The light with bands dropped, or with zero bands added.
 Light withOrder(const Light& light, int order);
+
+/// Damps the bands of lights of one order by the same factors in all channels; for Window::automatic by the least
+/// window that leaves none of them negative. Returns its lambda, else 0. Throws a usage error where no window can
+/// (sh::automaticLambda()) and when the orders differ.
+double applyWindow(sh::Window window, std::span<Light> lights);
 
 /// Radiance from a direction of unit length, as far as the bands give it: ringing can make it negative.
 Vec3d radianceFrom(const Light& light, const Vec3d& direction);

@@ -13,7 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMostBytes = std::size_t(64) << 20;  // order 128 takes about 1.2 MB
+constexpr std::size_t kMostBytes = std::size_t(64) << 20;  // a light of order 128 takes about 1.2 MB
+
 const char* axesName(UpAxis up) {
   return up == UpAxis::z ? "z-up" : "y-up";
 }
@@ -30,18 +31,34 @@ class Reader {
                  .remedy = std::move(remedy)});
   }
 
-  LightFile read() const {
+  bool holdsRig() const {
     if (!root_.is_object() || !root_.contains("shbake_light")) {
       fail("", "is not a light file (no field \"shbake_light\")", "make one with 'shbake light'");
     }
-    requireKnownFields();
-    requireValue("shbake_light", 1);
-    requireValue("basis", "real-orthonormal");
-    requireValue("condon_shortley", false);
+    return root_.contains("samples");
+  }
+
+  LightFile readLight() const {
+    if (holdsRig()) fail("samples", "makes it a rig of lights where one light is needed", "give a light without it");
+    requireFrame({"radiance"});
     LightFile file;
     file.up = readAxes();
     const int order = readOrder();
-    file.light = Light(order, readRadiance(order));
+    file.light = Light(order, readRadiance(field("radiance"), "radiance", order));
+    file.sources = readSources();
+    return file;
+  }
+
+  RigFile readRig() const {
+    if (!holdsRig()) fail("samples", "is missing where a rig is needed", "make one with 'shbake light --sample'");
+    requireFrame({"blend", "power", "samples"});
+    RigFile file;
+    file.up = readAxes();
+    file.options = readBlend();
+    const int order = readOrder();
+    const Json& samples = field("samples");
+    if (!samples.is_array() || samples.empty()) fail("samples", "is not a list of samples", "give at least one");
+    for (std::size_t i = 0; i < samples.size(); ++i) file.samples.push_back(readSample(samples[i], i, order));
     file.sources = readSources();
     return file;
   }
@@ -52,12 +69,16 @@ class Reader {
     return root_[name];
   }
 
-  void requireKnownFields() const {
-    static const std::set<std::string> known{"shbake_light", "order",    "basis",  "condon_shortley",
-                                             "axes",         "radiance", "sources"};
+  /// Requires the fields that say how numbers are meant, and none that is unknown.
+  void requireFrame(const std::set<std::string>& own) const {
+    std::set<std::string> known{"shbake_light", "order", "basis", "condon_shortley", "axes", "sources"};
+    known.insert(own.begin(), own.end());
     for (const auto& item : root_.items()) {
-      if (!known.contains(item.key())) fail(item.key(), "is not a field of light files", "remove it");
+      if (!known.contains(item.key())) fail(item.key(), "is not a field of such a light file", "remove it");
     }
+    requireValue("shbake_light", 1);
+    requireValue("basis", "real-orthonormal");
+    requireValue("condon_shortley", false);
   }
 
   void requireValue(const char* name, const Json& value) const {
@@ -86,26 +107,62 @@ class Reader {
     return order.get<int>();
   }
 
-  std::vector<Vec3d> readRadiance(int order) const {
-    const Json& rows = field("radiance");
+  /// Three finite numbers, told as `what` of `name` where they are not.
+  Vec3d readTriple(const Json& row, const std::string& name, const std::string& what) const {
+    const bool isTriple =
+        row.is_array() && row.size() == 3 && row[0].is_number() && row[1].is_number() && row[2].is_number();
+    if (!isTriple) fail(name, what + " is not three numbers", "give a list such as [0, 0, 1]");
+    const Vec3d triple{row[0].get<double>(), row[1].get<double>(), row[2].get<double>()};
+    if (!isFinite(triple)) fail(name, what + " is not finite", "correct it");
+    return triple;
+  }
+
+  std::vector<Vec3d> readRadiance(const Json& rows, const std::string& name, int order) const {
     const std::size_t expected = static_cast<std::size_t>(sh::coefficientCount(order));
-    if (!rows.is_array()) fail("radiance", "is not a list", "give one [r, g, b] a coefficient");
+    if (!rows.is_array()) fail(name, "is not a list", "give one [r, g, b] a coefficient");
     if (rows.size() != expected) {
-      fail("radiance",
+      fail(name,
            "has " + std::to_string(rows.size()) + " rows where order " + std::to_string(order) + " has " +
                std::to_string(expected),
            "correct the order or the rows");
     }
     std::vector<Vec3d> radiance;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const Json& row = rows[i];
-      const bool isTriple =
-          row.is_array() && row.size() == 3 && row[0].is_number() && row[1].is_number() && row[2].is_number();
-      if (!isTriple) fail("radiance", "row " + std::to_string(i) + " is not three numbers", "give [r, g, b]");
-      radiance.emplace_back(row[0].get<double>(), row[1].get<double>(), row[2].get<double>());
-      if (!isFinite(radiance.back())) fail("radiance", "row " + std::to_string(i) + " is not finite", "correct it");
+      radiance.push_back(readTriple(rows[i], name, "row " + std::to_string(i)));
     }
     return radiance;
+  }
+
+  RigOptions readBlend() const {
+    RigOptions options;
+    const Json& blend = field("blend");
+    if (blend == blendName(RigMethod::barycentric)) {
+      options.method = RigMethod::barycentric;
+      if (root_.contains("power")) fail("power", "has no meaning for barycentric blending", "remove it");
+      return options;
+    }
+    if (blend != blendName(RigMethod::inverseDistance)) {
+      fail("blend", "is neither \"inverse-distance\" nor \"barycentric\"", "give one of these");
+    }
+    const Json& power = field("power");
+    if (!power.is_number() || !(power.get<double>() > 0)) fail("power", "is not a number above 0", "correct it");
+    options.power = power.get<double>();
+    return options;
+  }
+
+  LightSample readSample(const Json& sample, std::size_t index, int order) const {
+    const std::string name = "samples[" + std::to_string(index) + "]";
+    if (!sample.is_object()) fail(name, "is not an object", "give its position and radiance");
+    for (const auto& item : sample.items()) {
+      if (item.key() != "position" && item.key() != "radiance") {
+        fail(name + "." + item.key(), "is not a field of samples", "remove it");
+      }
+    }
+    for (const char* needed : {"position", "radiance"}) {
+      if (!sample.contains(needed)) fail(name + "." + needed, "is missing", "add it");
+    }
+    return {readTriple(sample["position"], name + ".position", "it"),
+            Light(order, readRadiance(sample["radiance"], name + ".radiance", order))};
   }
 
   std::vector<std::string> readSources() const {
@@ -165,26 +222,75 @@ Json parse(const std::string& path, const std::string& text) {
   }
 }
 
+std::string tripleText(const Vec3d& v) {
+  return Json::array({v.x, v.y, v.z}).dump();
+}
+
+/// The fields of every light file, up to its coefficients.
+std::string frameText(int order, UpAxis up) {
+  return "{\n  \"shbake_light\": 1,\n  \"order\": " + std::to_string(order) +
+         ",\n  \"basis\": \"real-orthonormal\",\n  \"condon_shortley\": false,\n  \"axes\": \"" + axesName(up) +
+         "\",\n";
+}
+
+/// The coefficients, a line for each.
+std::string rowsText(const Light& light, const std::string& indent) {
+  std::string text;
+  for (std::size_t i = 0; i < light.coefficients.size(); ++i) {
+    text += indent + tripleText(light.coefficients[i]) + (i + 1 < light.coefficients.size() ? ",\n" : "\n");
+  }
+  return text;
+}
+
+/// Adds the sources and writes the file.
+void writeText(const std::string& path, const std::string& text, const std::vector<std::string>& sources) {
+  AtomicFile out(path);
+  out.write(text + ",\n  \"sources\": " + Json(sources).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n}\n");
+  out.commit();
+}
+
 }  // namespace
+
+const char* blendName(RigMethod method) {
+  return method == RigMethod::barycentric ? "barycentric" : "inverse-distance";
+}
+
+bool isRigFile(const std::string& path) {
+  const Json root = parse(path, readText(path));
+  return Reader(path, root).holdsRig();
+}
 
 LightFile readLightFile(const std::string& path) {
   const Json root = parse(path, readText(path));
-  return Reader(path, root).read();
+  return Reader(path, root).readLight();
+}
+
+RigFile readRigFile(const std::string& path) {
+  const Json root = parse(path, readText(path));
+  return Reader(path, root).readRig();
 }
 
 void writeLightFile(const std::string& path, const LightFile& file) {
   const auto& light = Light(file.light.order, file.light.coefficients);
-  std::string text = "{\n  \"shbake_light\": 1,\n  \"order\": " + std::to_string(light.order) +
-                     ",\n  \"basis\": \"real-orthonormal\",\n  \"condon_shortley\": false,\n  \"axes\": \"" +
-                     axesName(file.up) + "\",\n  \"radiance\": [\n";
-  for (std::size_t i = 0; i < light.coefficients.size(); ++i) {
-    const Vec3d& c = light.coefficients[i];
-    text += "    " + Json::array({c.x, c.y, c.z}).dump() + (i + 1 < light.coefficients.size() ? ",\n" : "\n");
+  writeText(path, frameText(light.order, file.up) + "  \"radiance\": [\n" + rowsText(light, "    ") + "  ]",
+            file.sources);
+}
+
+void writeRigFile(const std::string& path, const RigFile& file) {
+  const LightRig checked(file.samples, file.options);
+  const int order = file.samples[0].light.order;
+  std::string text = frameText(order, file.up) + "  \"blend\": \"" + blendName(file.options.method) + "\",\n";
+  if (file.options.method == RigMethod::inverseDistance)
+    text += "  \"power\": " + Json(file.options.power).dump() + ",\n";
+  text += "  \"samples\": [";
+  for (std::size_t i = 0; i < file.samples.size(); ++i) {
+    const LightSample& s = file.samples[i];
+    if (s.light.order != order) throw usageError("the lights of a rig differ in order", "give them one order");
+    const Light light(s.light.order, s.light.coefficients);
+    text += (i == 0 ? "\n" : ",\n") + std::string("    {\"position\": ") + tripleText(s.position) +
+            ",\n     \"radiance\": [\n" + rowsText(light, "      ") + "    ]}";
   }
-  text += "  ],\n  \"sources\": " + Json(file.sources).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n}\n";
-  AtomicFile out(path);
-  out.write(text);
-  out.commit();
+  writeText(path, text + "\n  ]", file.sources);
 }
 
 }  // namespace shbake

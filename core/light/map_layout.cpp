@@ -35,6 +35,8 @@ constexpr std::array<Shape, 6> kShapes{{
     {MapLayout::stripVertical, 1, 6},
 }};
 
+constexpr int kLeastAngular = 4;
+
 constexpr Vec3d kForward{1, 0, 0}, kRight{0, -1, 0}, kUp{0, 0, 1};
 
 /// What a face looks along; column and row place it in a layout.
@@ -111,6 +113,18 @@ std::pair<int, int> facesOf(MapLayout layout) {
   return {1, 6};
 }
 
+CubeFace angularChart(int width, int height) {
+  const std::string place = std::to_string(width) + "x" + std::to_string(height) + " pixels";
+  if (width != height) {
+    throw Error({.place = place, .cause = "an angular map is square", .remedy = "name another layout"});
+  }
+  if (width < kLeastAngular) {
+    throw Error(
+        {.place = place, .cause = "an angular map has at least 4 pixels across", .remedy = "give a larger map"});
+  }
+  return {0, 0, width, kForward, kRight, kUp};
+}
+
 }  // namespace
 
 const char* layoutName(MapLayout layout) {
@@ -142,7 +156,8 @@ std::optional<MapLayout> guessLayout(int width, int height) {
   return std::nullopt;
 }
 
-std::vector<CubeFace> cubeFaces(MapLayout layout, int width, int height) {
+std::vector<CubeFace> mapCharts(MapLayout layout, int width, int height) {
+  if (layout == MapLayout::angular) return {angularChart(width, height)};
   const auto slots = placedSlots(layout);
   const auto [across, down] = facesOf(layout);
   const int size = width / across;

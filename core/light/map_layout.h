@@ -33,15 +33,16 @@ std::vector<std::string> layoutNames();
 /// for any other shape.
 std::optional<MapLayout> guessLayout(int width, int height);
 
-/// One face of a cube map: a square of pixels and the axes of the viewer's frame that it looks along, in the canonical
-/// frame F = +x, R = -y, U = +z.
+/// One face of a cube map, or an angular map: a square of pixels and the axes of the viewer's frame that it looks
+/// along, in the canonical frame F = +x, R = -y, U = +z.
 struct CubeFace {
   int x = 0, y = 0, size = 0;  ///< its left upper pixel and its width in pixels
   Vec3d forward, right, up;    ///< the directions of its centre, and rightwards and upwards in the image
 };
 
-/// The six faces of a cube layout. Throws an Error without a file name when the image does not have the shape that the
-/// layout asks for.
-std::vector<CubeFace> cubeFaces(MapLayout layout, int width, int height);
+/// The six faces of a cube layout, or the one square of an angular map, whose axes are those of its centre. Throws an
+/// Error without a file name when the image does not have the shape that the layout asks for (an angular map has at
+/// least 4 pixels across), a usage error for other layouts.
+std::vector<CubeFace> mapCharts(MapLayout layout, int width, int height);
 
 }  // namespace shbake

@@ -1,13 +1,12 @@
 // Environment maps as rows: from files by a module that is loaded for the first of them, and from memory.
 #include "light/map_rows.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <filesystem>
 
 #include "base/error.h"
 #include "light/map_file_module.h"
+#include "light/module.h"
 
 namespace shbake {
 namespace {
@@ -23,33 +22,37 @@ void requireReadable(const std::string& path) {
   if (std::filesystem::file_size(path, error) == 0 && !error) fail(path, "is empty", "fetch it again");
 }
 
-/// The module, or why it could not be loaded. It stays loaded: the rows that it returns hold its code.
-struct MapFileModule {
-  decltype(&shbakeOpenMapFile) open = nullptr;
-  std::string problem;
-
-  // By its full path: a search along the program's run path does not work under the address sanitizer, whose own dlopen
-  // is then the caller.
-  MapFileModule() {
-    void* const module = ::dlopen(SHBAKE_MAP_FILE_MODULE, RTLD_NOW | RTLD_LOCAL);
-    void* const symbol = module == nullptr ? nullptr : ::dlsym(module, "shbakeOpenMapFile");
-    open = reinterpret_cast<decltype(&shbakeOpenMapFile)>(symbol);
-    if (symbol == nullptr) problem = ::dlerror();
-  }
-};
-
 }  // namespace
 
 MapRows openMapFile(const std::string& path, PixelEncoding encoding, int threads) {
   requireReadable(path);
   MapRows rows;
-  static const MapFileModule module;
-  if (module.open == nullptr) {
+  // The rows that the module returns hold its code.
+  static const ModuleFunction module =
+      moduleFunction(SHBAKE_MAP_FILE_MODULE, SHBAKE_MODULE_FOLDER, "shbakeOpenMapFile");
+  if (module.address == nullptr) {
     fail(path, "the part of shbake that reads images cannot be loaded: " + module.problem,
-         "build shbake again, with libopenimageio-dev installed");
+         "build shbake again with libopenimageio-dev installed, or install it whole");
   }
-  module.open(path, encoding, threads, rows);
+  reinterpret_cast<decltype(&shbakeOpenMapFile)>(module.address)(path, encoding, threads, rows);
   return rows;
+}
+
+ChosenLayout chooseLayout(const MapRows& rows, MapLayout asked) {
+  if (asked != MapLayout::automatic) return {asked};
+  const std::optional<MapLayout> guess = rows.layout ? rows.layout : guessLayout(rows.width, rows.height);
+  if (guess) return {*guess, !rows.layout};
+  throw Error({.file = rows.name,
+               .place = std::to_string(rows.width) + "x" + std::to_string(rows.height) + " pixels",
+               .cause = "width : height does not tell the layout (2:1 lat-long, 1:1 angular, 4:3 and 3:4 cube "
+                        "crosses, 6:1 and 1:6 cube strips)",
+               .remedy = "name the layout"});
+}
+
+void rethrowNaming(const Error& error, const std::string& name) {
+  Error::Parts parts = error.parts();
+  parts.file = name;
+  throw Error(parts);
 }
 
 MapRows mapInMemory(int width, int height, std::span<const Rgb> pixels) {

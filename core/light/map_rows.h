@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "base/vec3.h"
 #include "light/map_layout.h"
 
@@ -38,6 +39,17 @@ struct MapRows {
 /// decode (0: all cores). Throws an Error naming the file when it cannot be read, is turned by an orientation tag, or
 /// holds luminance and chroma instead of colours; `read` throws when the file ends early.
 MapRows openMapFile(const std::string& path, PixelEncoding encoding, int threads);
+
+/// The layout that is asked for; for MapLayout::automatic what the file says, else what the shape tells. Throws an
+/// Error where nothing tells it.
+struct ChosenLayout {
+  MapLayout layout = MapLayout::latLong;
+  bool guessed = false;  ///< from the shape
+};
+ChosenLayout chooseLayout(const MapRows& rows, MapLayout asked);
+
+/// Throws the error again with the file's name, which projectors and layouts do not know.
+[[noreturn]] void rethrowNaming(const Error& error, const std::string& name);
 
 /// The rows of an image in memory, which must outlive them. Throws a usage error unless pixels.size() = width * height.
 MapRows mapInMemory(int width, int height, std::span<const Rgb> pixels);

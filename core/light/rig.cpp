@@ -97,6 +97,14 @@ std::vector<RigWeight> LightRig::inverseDistanceWeights(const Vec3d& place) cons
   return weights;
 }
 
+LightRig rotated(const LightRig& rig, const sh::Matrix3d& rotation, const Vec3d& about) {
+  std::vector<LightSample> samples;
+  for (const LightSample& s : rig.samples()) {
+    samples.push_back({about + rotation * (s.position - about), rotated(s.light, rotation)});
+  }
+  return LightRig(std::move(samples), rig.options());
+}
+
 Light LightRig::at(const Vec3d& place) const {
   Light sum;
   for (const RigWeight& w : weights(place)) addLight(sum, samples_[w.index].light, Vec3d{1, 1, 1} * w.weight);

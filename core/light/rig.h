@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "light/light.h"
+#include "sh/matrix3.h"
 
 namespace shbake {
 
@@ -43,6 +44,7 @@ class LightRig {
   LightRig& operator=(LightRig&&) noexcept;
 
   const std::vector<LightSample>& samples() const { return samples_; }
+  const RigOptions& options() const { return options_; }
 
   /// The weights at a place: positive, summing to 1, rising in index. Samples at one position share its weight. On a
   /// sample's position only that position counts. Throws a usage error for a place that is not finite.
@@ -58,5 +60,9 @@ class LightRig {
   RigOptions options_;
   std::unique_ptr<Simplices> simplices_;
 };
+
+/// The rig turned as a whole about a place, its samples' positions and their lights: what shone at p shines at
+/// about + R (p - about), turned by R. Throws a usage error for a matrix that is not a rotation.
+LightRig rotated(const LightRig& rig, const sh::Matrix3d& rotation, const Vec3d& about = {});
 
 }  // namespace shbake

@@ -11,7 +11,7 @@ namespace shbake {
 namespace {
 
 /// Cells along the longer side of what stands on the plane.
-constexpr int kFineCells = 80;
+constexpr int kFineCells = 64;
 /// How much wider each cell further out is: shadows there are of what is far above, and soft.
 constexpr double kGrowth = 1.15;
 

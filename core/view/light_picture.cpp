@@ -5,13 +5,20 @@
 #include <cmath>
 #include <numbers>
 
-#include "view/lat_long_image.h"
+#include "base/error.h"
 
 namespace shbake {
 namespace {
 
 /// Even a slightly negative value is to be seen.
 constexpr float kFaintest = 0.15f;
+
+/// The direction that the place (u, v) of a lat-long map stands for, both 0..1 from its upper left corner.
+Vec3d latLongDirection(double u, double v) {
+  constexpr double kPi = std::numbers::pi;
+  const double azimuth = 2 * kPi * (0.5 - u), polar = kPi * v;
+  return {std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)};
+}
 
 Rgb pixelOf(const Vec3d& radiance, const ToneMap& tone) {
   const Rgb light = displayLight(Rgb(radiance), tone);
@@ -23,12 +30,22 @@ Rgb pixelOf(const Vec3d& radiance, const ToneMap& tone) {
 
 }  // namespace
 
-Picture lightPicture(const RadianceFunction& radiance, int height, const ToneMap& tone, const Parallel& parallel) {
+Picture lightPicture(const RadianceFunction& radiance, int height, int samples, const ToneMap& tone,
+                     const Parallel& parallel) {
+  if (samples < 1 || samples > 16) throw usageError("the number of samples is out of range", "give 1 to 16");
   Picture picture(2 * height, height);
+  const double columns = static_cast<double>(picture.width) * samples, rows = static_cast<double>(height) * samples;
+  const float share = 1 / static_cast<float>(samples * samples);
   parallel.forBlocks(static_cast<std::size_t>(height), 4, [&](std::size_t begin, std::size_t end, int) {
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
       for (int x = 0; x < picture.width; ++x) {
-        picture.at(x, y) = pixelOf(radiance(latLongDirection((x + 0.5) / picture.width, (y + 0.5) / height)), tone);
+        Rgb sum;
+        for (int j = y * samples; j < (y + 1) * samples; ++j) {
+          for (int i = x * samples; i < (x + 1) * samples; ++i) {
+            sum += pixelOf(radiance(latLongDirection((i + 0.5) / columns, (j + 0.5) / rows)), tone);
+          }
+        }
+        picture.at(x, y) = sum * share;
       }
     }
   });

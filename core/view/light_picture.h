@@ -15,9 +15,10 @@ namespace shbake {
 using RadianceFunction = std::function<Vec3d(const Vec3d& direction)>;
 
 /// The light as display light, `height` pixels high and twice as wide, laid out as lat-long environment maps are
-/// (latLongDirection()). Where a channel is negative the pixel is magenta, the brighter the more negative: false colour
-/// that no light of the picture should have.
-Picture lightPicture(const RadianceFunction& radiance, int height, const ToneMap& tone, const Parallel& parallel);
+/// (MapLayout::latLong) and averaged over samples x samples places in each pixel. Where a channel is negative the pixel
+/// is magenta, the brighter the more negative: false colour that no light of the picture should have.
+Picture lightPicture(const RadianceFunction& radiance, int height, int samples, const ToneMap& tone,
+                     const Parallel& parallel);
 
 /// The exposure that takes the mean radiance of the greatest channel of `light` to 0.5 of white; 0 for a light that is
 /// black or negative in the mean.

@@ -1,8 +1,6 @@
 // Pictures to files, encoded by a module that is loaded for the first of them.
 #include "view/picture_file.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -10,21 +8,20 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "light/module.h"
 #include "view/picture_module.h"
 #include "view/tone_map.h"
 
 namespace shbake {
 namespace {
 
-/// The module's function. It stays loaded.
-decltype(&shbakeEncodePicture) encoder() {
-  static void* const module = ::dlopen(SHBAKE_PICTURE_MODULE, RTLD_NOW | RTLD_LOCAL);
-  void* const symbol = module == nullptr ? nullptr : ::dlsym(module, "shbakeEncodePicture");
-  if (symbol != nullptr) return reinterpret_cast<decltype(&shbakeEncodePicture)>(symbol);
-  const char* const reason = ::dlerror();
-  throw Error({.file = SHBAKE_PICTURE_MODULE,
-               .cause = std::string("this part of shbake cannot be loaded: ") + (reason ? reason : "no reason is told"),
-               .remedy = "build shbake again, or install it whole"});
+decltype(&shbakeEncodePicture) encoder(const std::string& path) {
+  static const ModuleFunction module =
+      moduleFunction(SHBAKE_PICTURE_MODULE, SHBAKE_MODULE_FOLDER, "shbakeEncodePicture");
+  if (module.address != nullptr) return reinterpret_cast<decltype(&shbakeEncodePicture)>(module.address);
+  throw Error({.file = path,
+               .cause = "the part of shbake that writes pictures cannot be loaded: " + module.problem,
+               .remedy = "build shbake again with libopenimageio-dev installed, or install it whole"});
 }
 
 }  // namespace
@@ -56,7 +53,7 @@ void writePicture(const std::string& path, const Picture& picture) {
   }
   std::vector<unsigned char> bytes;
   std::string failure;
-  encoder()(raw, bytes, failure);
+  encoder(path)(raw, bytes, failure);
   if (!failure.empty()) {
     throw Error({.file = path, .cause = "the picture cannot be encoded: " + failure, .remedy = "try the other format"});
   }

@@ -38,6 +38,34 @@ void requireRows(const TransferSet& transfer) {
   }
 }
 
+/// A light as rows of floats, ready to meet those of a transfer.
+class LightRows {
+ public:
+  LightRows(const Light& used, const TransferSet& transfer)
+      : channelStep_(transfer.channels == 3 ? static_cast<std::size_t>(transfer.order) * transfer.order : 0) {
+    for (int c = 0; c < 3; ++c) {
+      const std::vector<double> channel = used.channel(c);
+      rows_[c].assign(channel.begin(), channel.end());
+    }
+  }
+
+  /// Of one point. Coefficients are ordered by degree: the bands that both share come first in every channel.
+  Rgb radiance(const TransferSet& transfer, std::size_t point) const {
+    const float* t = transfer.coefficients.data() + point * transfer.stride();
+    const std::size_t count = rows_[0].size();
+    return {dotInLanes(t, rows_[0].data(), count), dotInLanes(t + channelStep_, rows_[1].data(), count),
+            dotInLanes(t + 2 * channelStep_, rows_[2].data(), count)};
+  }
+
+ private:
+  std::array<std::vector<float>, 3> rows_;
+  std::size_t channelStep_;
+};
+
+Rgb clamped(const Rgb& c) {
+  return {std::max(c.x, 0.f), std::max(c.y, 0.f), std::max(c.z, 0.f)};
+}
+
 double least(const Rgb& c) {
   return std::min({c.x, c.y, c.z});
 }
@@ -50,43 +78,45 @@ double greatest(const Rgb& c) {
 
 Light usedLight(const Light& light, int order, sh::Window window) {
   Light used = withOrder(light, std::min(light.order, order));
-  if (window == sh::Window::none) return used;
-  std::array<std::vector<double>, 3> channels;
-  double lambda = 0;
-  for (int c = 0; c < 3; ++c) {
-    channels[c] = used.channel(c);
-    if (window == sh::Window::automatic) lambda = std::max(lambda, sh::automaticLambda(used.order, channels[c]));
-  }
-  const std::vector<double> factors = window == sh::Window::automatic ? sh::laplacianFactors(lambda, used.order)
-                                                                      : sh::windowFactors(window, used.order);
-  for (int c = 0; c < 3; ++c) {
-    sh::applyFactors(factors, channels[c]);
-    used.setChannel(c, channels[c]);
-  }
+  applyWindow(window, {&used, 1});
   return used;
 }
 
 std::vector<Rgb> relight(const TransferSet& transfer, const Light& light, const RelightOptions& options,
                          const Parallel& parallel) {
   requireRows(transfer);
-  const Light used = usedLight(light, transfer.order, options.window);
-  std::array<std::vector<float>, 3> weights;
-  for (int c = 0; c < 3; ++c) {
-    const std::vector<double> channel = used.channel(c);
-    weights[c].assign(channel.begin(), channel.end());
-  }
-  // Coefficients are ordered by degree: the bands that both share come first in every channel.
-  const std::size_t count = weights[0].size();
-  const std::size_t channelStep =
-      transfer.channels == 3 ? static_cast<std::size_t>(transfer.order) * transfer.order : 0;
+  const LightRows rows(usedLight(light, transfer.order, options.window), transfer);
   std::vector<Rgb> colors(transfer.size());
   parallel.forBlocks(colors.size(), kBlock, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t p = begin; p < end; ++p) {
-      const float* row = transfer.coefficients.data() + p * transfer.stride();
-      Rgb color{dotInLanes(row, weights[0].data(), count), dotInLanes(row + channelStep, weights[1].data(), count),
-                dotInLanes(row + 2 * channelStep, weights[2].data(), count)};
-      if (options.clampNegative) color = {std::max(color.x, 0.f), std::max(color.y, 0.f), std::max(color.z, 0.f)};
-      colors[p] = color;
+      const Rgb color = rows.radiance(transfer, p);
+      colors[p] = options.clampNegative ? clamped(color) : color;
+    }
+  });
+  return colors;
+}
+
+std::vector<Rgb> relight(const TransferSet& transfer, std::span<const Vec3d> places, const LightRig& rig,
+                         const RelightOptions& options, const Parallel& parallel) {
+  requireRows(transfer);
+  if (places.size() != transfer.size()) {
+    throw usageError("there are " + std::to_string(places.size()) + " places for " + std::to_string(transfer.size()) +
+                     " points");
+  }
+  std::vector<Light> lights;
+  for (const LightSample& s : rig.samples())
+    lights.push_back(withOrder(s.light, std::min(s.light.order, transfer.order)));
+  applyWindow(options.window, lights);
+  std::vector<LightRows> rows;
+  for (const Light& light : lights) rows.emplace_back(light, transfer);
+  std::vector<Rgb> colors(transfer.size());
+  parallel.forBlocks(colors.size(), kBlock, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t p = begin; p < end; ++p) {
+      Rgb color;
+      for (const RigWeight& w : rig.weights(places[p])) {
+        color += rows[w.index].radiance(transfer, p) * static_cast<float>(w.weight);
+      }
+      colors[p] = options.clampNegative ? clamped(color) : color;
     }
   });
   return colors;

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/vec3.h"
 #include "light/light.h"
+#include "light/rig.h"
 #include "mesh/mesh.h"
 #include "sh/window.h"
 #include "transfer/transfer_set.h"
@@ -31,6 +32,12 @@ Light usedLight(const Light& light, int order, sh::Window window);
 /// or 3 channels.
 std::vector<Rgb> relight(const TransferSet& transfer, const Light& light, const RelightOptions& options,
                          const Parallel& parallel);
+
+/// The same under local lights: `places` has the position of each point in the axes of the rig, and the radiance is
+/// that under the rig's samples, blended by their weights there. A window damps all samples alike. Throws a usage
+/// error, too, unless there is a place for each point, and for a window of samples whose orders differ.
+std::vector<Rgb> relight(const TransferSet& transfer, std::span<const Vec3d> places, const LightRig& rig,
+                         const RelightOptions& options, const Parallel& parallel);
 
 /// Where relit colours are negative, which no light is: ringing of a light that was cut to few bands.
 struct NegativeAudit {

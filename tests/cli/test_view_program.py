@@ -135,6 +135,81 @@ class ViewTest(unittest.TestCase):
                 "--light", "clear", "--size", "64x64")
         self.assertNotEqual(read_png(self.folder / "light_0001.png"), read_png(self.folder / "light_0002.png"))
 
+    def ground_pixels(self, *options):
+        """The upper left pixel, far from a red box on a plane of albedo 0.5 under white light, and all along its edges."""
+        vertices, faces = meshes.box_on_floor()
+        meshes.write_obj(self.folder / "alone.obj", vertices[4:], [[v - 4 for v in f] for f in faces[1:]])
+        self.ok("bake", "alone.obj", "-o", "alone.ply", "--albedo", "0.9,0.1,0.1", *options)
+        self.ok("render", "alone.ply", "--light", "white", "--exposure", "0", "--size", "100x100", "--ground-plane",
+                "0.5", "-o", "ground.png")
+        width, height, rows = read_png(self.folder / "ground.png")
+        edges = [tuple(row[3 * x:3 * x + 3]) for y, row in enumerate(rows) for x in range(width)
+                 if x in (0, width - 1) or y in (0, height - 1)]
+        return edges
+
+    def test_a_ground_plane_is_lit_as_its_mesh_was_baked(self):
+        # 0.5 of white is 188 in sRGB.
+        self.assertEqual(set(self.ground_pixels("--transfer", "unshadowed")), {(188, 188, 188)})
+        shadowed = self.ground_pixels("--transfer", "shadowed")
+        for value in shadowed[0]:
+            self.assertAlmostEqual(value, 188, delta=4)
+        darkest = min(shadowed)
+        self.assertLess(darkest[0], 170)
+        self.assertEqual(len(set(darkest)), 1)  # grey: nothing is reflected
+        red, green, _ = min(self.ground_pixels(), key=lambda pixel: pixel[1])
+        self.assertGreater(red, green + 5)
+        # Seen from below there is no plane.
+        self.ok("render", "alone.ply", "--view", "0,-40", "--ground-plane", "0.5", "--background", "0,0,1", "--size",
+                "64x64", "-o", "below.png")
+        self.assertEqual(tuple(read_png(self.folder / "below.png")[2][0][:3]), (0, 0, 255))
+
+    def test_the_background_is_the_probe_itself_in_every_layout(self):
+        # A cross whose faces have a colour each: right, left, up, down, front, back.
+        colors = {(2, 1): (1, 0, 0), (0, 1): (0, 1, 0), (1, 0): (0, 0, 1), (1, 2): (1, 1, 0), (1, 1): (0, 1, 1),
+                  (3, 1): (1, 0, 1)}
+        pixels = b"".join(struct.pack("<3f", *colors.get((x // 8, 2 - y // 8), (0, 0, 0)))
+                          for y in range(24) for x in range(32))
+        (self.folder / "cross.pfm").write_bytes(b"PF\n32 24\n-1.0\n" + pixels)
+        # Looking along +x one sees the front, along +y the left; with mirrored maps what is on the other side.
+        cases = [("270,0", (), (0, 255, 255)), ("180,0", (), (0, 255, 0)), ("0,0", (), (255, 0, 0)),
+                 ("90,0", (), (255, 0, 255)), ("0,-90", (), (0, 0, 255)), ("0,90", (), (255, 255, 0)),
+                 ("180,0", ("--mirror",), (255, 0, 0)), ("270,0", ("--rotate", "90"), (255, 0, 0)),
+                 ("270,0", ("--up", "y"), (0, 255, 255)), ("0,-90", ("--up", "y"), (0, 0, 255)),
+                 ("270,0", ("--layout", "cross-horizontal", "--rotate", "180"), (255, 0, 255))]
+        for view, options, color in cases:
+            with self.subTest(view=view, options=options):
+                self.ok("render", "box.ply", "--light", "cross.pfm", "--background", "light", "--exposure", "0", "--view",
+                        view, "--fov", "60", "--size", "24x24", *options, "-o", "b.png")
+                self.assertEqual(tuple(read_png(self.folder / "b.png")[2][0][:3]), color)
+
+    def test_a_rig_lights_each_vertex_from_where_it_is(self):
+        for name, value in (("low", "1"), ("high", "3,2,1")):
+            self.ok("light", "--constant", value, "-o", name + ".shlight")
+        self.ok("light", "--sample", "0,0,0,low.shlight", "--sample", "0,0,2,high.shlight", "--blend", "barycentric",
+                "-o", "rig.shlight")
+        self.ok("relight", "box.ply", "--light", "rig.shlight", "--colors", "floats", "--ascii", "-o", "lit.ply")
+        comments, rows = read_ascii_ply(self.folder / "lit.ply")
+        self.assertTrue(any("under rig.shlight (2 local lights, barycentric)" in c for c in comments))
+        for row in rows:
+            share = float(row["z"]) / 2  # of the upper sample: half way up at the top of the box
+            for name, expected in (("red", 0.8 * (1 + 2 * share)), ("green", 0.4 * (1 + share)), ("blue", 0.2)):
+                self.assertAlmostEqual(float(row[name]), expected, delta=1e-5)
+        # Turned about the origin and stated with y up, the same rig lights the same way.
+        self.ok("light", "--sample", "0,0,0,low.shlight", "--sample", "0,2,0,high.shlight", "--up", "y", "--blend",
+                "barycentric", "--rotate", "70", "-o", "up.shlight")
+        self.ok("relight", "box.ply", "--light", "up.shlight", "--colors", "floats", "--ascii", "-o", "up.ply")
+        for a, b in zip(rows, read_ascii_ply(self.folder / "up.ply")[1]):
+            self.assertAlmostEqual(float(a["red"]), float(b["red"]), delta=1e-5)
+        self.ok("render", "box.ply", "--light", "rig.shlight", "--size", "64x64", "--background", "light", "-o", "a.png",
+                "--turntable", "2", "--turn", "light")
+        self.ok("render", "rig.shlight", "--size", "64x64", "--exposure", "0", "--captions", "none", "-o", "rig.png")
+        width, height, pixels = read_png(self.folder / "rig.png")
+        self.assertEqual((width, height), (257, 64))
+        self.assertEqual(tuple(pixels[30][:3]), (255, 255, 255))
+        result = self.run_program("sh", "rig.shlight")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("samples", result.stderr)
+
     def test_output_does_not_depend_on_threads(self):
         for verb, out in (("render", "a.png"), ("render", "a.exr"), ("relight", "a.ply")):
             seen = set()
@@ -158,6 +233,9 @@ class ViewTest(unittest.TestCase):
             (["render", "box.ply", "-o", "a.png", "--view", "0,95"], 2, "elevation"),
             (["render", "box.ply", "-o", "a.png", "--captions", "a,b"], 2, "captions"),
             (["render", "-o", "a.png", "--turntable", "3"], 2, "--turntable"),
+            (["render", "-o", "a.png", "--ground-plane", "0.5"], 2, "--ground-plane"),
+            (["render", "box.ply", "-o", "a.png", "--ground-plane", "2"], 2, "--ground-plane"),
+            (["light", "--sample", "0,0,low.shlight", "-o", "a.shlight"], 2, "--sample"),
         ]
         for arguments, code, part in cases:
             with self.subTest(" ".join(arguments)):

@@ -1,4 +1,4 @@
-// What the tests of this layer share: images painted by hand and an independent account of every layout.
+// What the tests of this layer share: lights and images made by hand.
 #pragma once
 
 #include <unistd.h>
@@ -107,109 +107,6 @@ inline Image noiseImage(MapLayout layout, int n, std::uint64_t seed) {
     i += 3;
   }
   return image;
-}
-
-/// A place in an image, in pixels from the left upper corner.
-struct Place {
-  double x, y;
-};
-
-/// Where a viewer who looks along +x with +z above finds direction d in a map, worked out from the layouts'
-/// descriptions and not from the library: `a` is what lies ahead, `l` to the left, `u` above.
-inline Place placeOf(MapLayout layout, const Image& image, const Vec3d& d) {
-  const double a = d.x, l = d.y, u = d.z;
-  if (layout == MapLayout::latLong) {
-    return {(0.5 - std::atan2(l, a) / (2 * kPi)) * image.width, std::acos(u) / kPi * image.height};
-  }
-  if (layout == MapLayout::angular) {
-    const double angle = std::acos(a), sideways = std::hypot(l, u), r = sideways > 0 ? angle / kPi / sideways : 0;
-    return {(1 - l * r) / 2 * image.width, (1 - u * r) / 2 * image.height};
-  }
-  const double most = std::max({std::abs(a), std::abs(l), std::abs(u)});
-  const double A = a / most, L = l / most, U = u / most;
-  // Each face: what lies to the right and downwards in its image when it is upright in a horizontal cross.
-  enum Face { front, back, left, right, up, down } face;
-  double rightwards, downwards;
-  if (A == 1) {
-    face = front;
-    rightwards = -L;
-    downwards = -U;
-  } else if (A == -1) {
-    face = back;
-    rightwards = L;
-    downwards = -U;
-  } else if (L == 1) {
-    face = left;
-    rightwards = A;
-    downwards = -U;
-  } else if (L == -1) {
-    face = right;
-    rightwards = -A;
-    downwards = -U;
-  } else if (U == 1) {
-    face = up;
-    rightwards = -L;
-    downwards = A;
-  } else {
-    face = down;
-    rightwards = -L;
-    downwards = -A;
-  }
-  int column = 0, row = 0;
-  switch (layout) {
-    case MapLayout::crossHorizontal:
-      column = face == left ? 0 : face == right ? 2 : face == back ? 3 : 1;
-      row = face == up ? 0 : face == down ? 2 : 1;
-      break;
-    case MapLayout::crossVertical:
-      column = face == left ? 0 : face == right ? 2 : 1;
-      row = face == up ? 0 : face == down ? 2 : face == back ? 3 : 1;
-      if (face == back) {
-        rightwards = -rightwards;
-        downwards = -downwards;
-      }
-      break;
-    case MapLayout::stripHorizontal:
-    case MapLayout::stripVertical: {
-      const int slot = face == right ? 0 : face == left ? 1 : face == up ? 2 : face == down ? 3 : face == front ? 4 : 5;
-      (layout == MapLayout::stripHorizontal ? column : row) = slot;
-      break;
-    }
-    default: {
-      // OpenEXR (ImfEnvmap): faces +X -X +Y -Y +Z -Z, where X = left, Y = up, Z = ahead. Its images show rightwards and
-      // downwards: +X: +Z, -Y; -X: -Z, -Y; +Y: +X, -Z; -Y: +X, +Z; +Z: -X, -Y; -Z: +X, -Y.
-      const double X = L, Y = U, Z = A;
-      if (X == 1) {
-        row = 0;
-        rightwards = Z;
-        downwards = -Y;
-      } else if (X == -1) {
-        row = 1;
-        rightwards = -Z;
-        downwards = -Y;
-      } else if (Y == 1) {
-        row = 2;
-        rightwards = X;
-        downwards = -Z;
-      } else if (Y == -1) {
-        row = 3;
-        rightwards = X;
-        downwards = Z;
-      } else if (Z == 1) {
-        row = 4;
-        rightwards = -X;
-        downwards = -Y;
-      } else {
-        row = 5;
-        rightwards = X;
-        downwards = -Y;
-      }
-    }
-  }
-  const int n = layout == MapLayout::crossHorizontal ? image.width / 4
-                : layout == MapLayout::crossVertical ? image.width / 3
-                                                     : std::min(image.width, image.height);
-  return {(column + (1 + rightwards) / 2) * n, (row + (1 + downwards) / 2) * n};
 }
 
 inline EnvironmentMapLight projectImage(const Image& image, int order, MapLayout layout,

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "light/light.h"
 #include "light/support.h"
+#include "light/synthetic.h"
 #include "sh/matrix3.h"
 
 using namespace shbake;
@@ -95,4 +96,25 @@ TEST_CASE("lights of impossible orders or values are refused") {
   REQUIRE_THROWS_AS(Light(1, {{NAN, 0, 0}}), Error);
   REQUIRE_THROWS_AS(withOrder(Light(1), 0), Error);
   REQUIRE_NOTHROW(Light(kMaxLightOrder));
+}
+
+TEST_CASE("lights are windowed together, by the least window that all need") {
+  std::vector<Light> lights{directionalLight(5, {0, 0, 1}, {1, 1, 1}), constantLight(5, {1, 2, 3}),
+                            discLight(5, {1, 0, 0}, 20, {1, 0, 2})};
+  std::vector<Light> alone{lights[0]};
+  const double strongest = applyWindow(sh::Window::automatic, alone);
+  const std::vector<Light> before = lights;
+  CHECK(applyWindow(sh::Window::automatic, lights) == strongest);
+  const std::vector<double> factors = sh::laplacianFactors(strongest, 5);
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    for (int i = 0; i < 25; ++i) {
+      const Vec3d expected = before[k].coefficients[i] * factors[sh::degreeOf(i)];
+      REQUIRE(distance(lights[k].coefficients[i], expected) < 1e-15);
+    }
+    for (int i = 0; i < 300; ++i) REQUIRE(radianceFrom(lights[k], randomDirection(9, i)).x > -1e-9);
+  }
+  CHECK(applyWindow(sh::Window::hann, lights) == 0);
+  lights[1] = constantLight(4, {1, 1, 1});
+  CHECK_THROWS_AS(applyWindow(sh::Window::hann, lights), Error);
+  CHECK(applyWindow(sh::Window::none, lights) == 0);
 }

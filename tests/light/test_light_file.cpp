@@ -130,3 +130,73 @@ TEST_CASE("a light that cannot be written leaves nothing") {
   REQUIRE_THROWS_AS(writeLightFile(folder / "light.shlight", file), Error);
   REQUIRE_FALSE(std::filesystem::exists(folder / "light.shlight"));
 }
+
+TEST_CASE("a rig reads back to the same bits") {
+  const TemporaryFolder folder;
+  const std::string path = folder / "rig.shlight";
+  for (const RigMethod method : {RigMethod::inverseDistance, RigMethod::barycentric}) {
+    RigFile file;
+    for (int i = 0; i < 3; ++i) file.samples.push_back({randomDirection(5, i), randomLight(3, 50 + i)});
+    file.options = {method, method == RigMethod::inverseDistance ? 2.5 : 10};
+    file.up = UpAxis::y;
+    file.sources = {"three places"};
+    writeRigFile(path, file);
+    REQUIRE(isRigFile(path));
+    const RigFile back = readRigFile(path);
+    REQUIRE(back.samples.size() == 3);
+    for (int i = 0; i < 3; ++i) {
+      REQUIRE(back.samples[i].position == file.samples[i].position);
+      REQUIRE(sameBits(back.samples[i].light, file.samples[i].light));
+    }
+    CHECK((back.options.method == method && back.options.power == file.options.power));
+    CHECK((back.up == UpAxis::y && back.sources == file.sources));
+    CHECK_THROWS_WITH(readLightFile(path), Catch::Contains("field \"samples\""));
+  }
+  RigFile bad;
+  CHECK_THROWS_AS(writeRigFile(path, bad), Error);
+  bad.samples = {{{0, 0, 0}, Light(2)}, {{1, 0, 0}, Light(3)}};
+  CHECK_THROWS_AS(writeRigFile(path, bad), Error);
+  writeLightFile(path, {});
+  CHECK_FALSE(isRigFile(path));
+  CHECK_THROWS_WITH(readRigFile(path), Catch::Contains("field \"samples\"") && Catch::Contains("missing"));
+}
+
+TEST_CASE("a rig has the documented text, and each wrong field is named") {
+  using Catch::Contains;
+  const TemporaryFolder folder;
+  const std::string path = folder / "rig.shlight";
+  Light light(1);
+  light.coefficients[0] = {1, 2, 3};
+  writeRigFile(path, {{{{0.5, 0, -1}, light}, {{2, 0, 0}, light}}, {}, UpAxis::z, {}});
+  const std::string good = readText(path);
+  REQUIRE(good ==
+          "{\n  \"shbake_light\": 1,\n  \"order\": 1,\n  \"basis\": \"real-orthonormal\",\n  \"condon_shortley\": "
+          "false,\n  \"axes\": \"z-up\",\n  \"blend\": \"inverse-distance\",\n  \"power\": 10.0,\n  \"samples\": [\n"
+          "    {\"position\": [0.5,0.0,-1.0],\n     \"radiance\": [\n      [1.0,2.0,3.0]\n    ]},\n"
+          "    {\"position\": [2.0,0.0,0.0],\n     \"radiance\": [\n      [1.0,2.0,3.0]\n    ]}\n  ],\n"
+          "  \"sources\": []\n}\n");
+  const auto messageWith = [&](const std::string& from, const std::string& to) -> std::string {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    writeText(path, text);
+    try {
+      readRigFile(path);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(messageWith("10.0", "4").empty());
+  CHECK_THAT(messageWith("\"inverse-distance\"", "\"nearest\""), Contains("field \"blend\""));
+  CHECK_THAT(messageWith("\"inverse-distance\"", "\"barycentric\""), Contains("field \"power\""));
+  CHECK_THAT(messageWith("10.0", "0"), Contains("field \"power\""));
+  CHECK_THAT(messageWith("\"power\": 10.0,", ""), Contains("field \"power\"") && Contains("missing"));
+  CHECK_THAT(messageWith("\"power\": 10.0", "\"power\": 10.0, \"gain\": 1"), Contains("field \"gain\""));
+  CHECK_THAT(messageWith("\"power\": 10.0", "\"power\": 10.0, \"radiance\": [[1,2,3]]"), Contains("\"radiance\""));
+  CHECK_THAT(messageWith("[0.5,0.0,-1.0]", "[0.5,0.0]"), Contains("field \"samples[0].position\""));
+  CHECK_THAT(messageWith("[2.0,0.0,0.0]", "[2.0,0.0,1e999]"), Contains("too large"));
+  CHECK_THAT(messageWith("\"order\": 1", "\"order\": 2"), Contains("field \"samples[0].radiance\""));
+  CHECK_THAT(messageWith("{\"position\": [2.0,0.0,0.0],", "{"), Contains("field \"samples[1].position\""));
+  CHECK_THAT(messageWith("{\"position\": [2.0", "{\"weight\": 1, \"position\": [2.0"), Contains("samples[1].weight"));
+  CHECK_THAT(messageWith("{\"position\": [0.5", "3, {\"position\": [0.5"), Contains("field \"samples[0]\""));
+}

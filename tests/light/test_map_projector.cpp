@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.h"
-#include "light/support.h"
+#include "light/layout_places.h"
 #include "sh/projection.h"
 
 using namespace shbake;

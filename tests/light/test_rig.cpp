@@ -143,3 +143,19 @@ TEST_CASE("rigs that cannot be are refused") {
   REQUIRE_THROWS_AS(LightRig({{{0, 0, 0}, Light(1)}}, {RigMethod::inverseDistance, 0}), Error);
   REQUIRE_THROWS_AS(affineRig(kCube).weights({0, INFINITY, 0}), Error);
 }
+
+TEST_CASE("a rig is turned as a whole") {
+  std::vector<LightSample> samples;
+  for (int i = 0; i < 6; ++i) samples.push_back({randomPoint(8, i), randomLight(3, 20 + i)});
+  const sh::Matrix3d turn = sh::rotationAbout({1, 2, -1}, 0.7);
+  const Vec3d about{0.4, -2, 1};
+  for (const RigMethod method : {RigMethod::inverseDistance, RigMethod::barycentric}) {
+    const LightRig rig(samples, {method, 3}), turned = rotated(rig, turn, about);
+    CHECK(turned.options().method == method);
+    for (int i = 0; i < 50; ++i) {
+      const Vec3d place = randomPoint(9, i);
+      const Light expected = rotated(rig.at(place), turn);
+      REQUIRE(maxDifference(turned.at(about + turn * (place - about)), expected) < 1e-12);
+    }
+  }
+}

@@ -60,7 +60,7 @@ TEST_CASE("below the mesh the ground is finely divided, and flat or thin meshes 
       const Vec3d &a = plane.positions[t[0]], &b = plane.positions[t[1]], &c = plane.positions[t[2]];
       const bool below = std::min({a.x, b.x, c.x}) >= 0 && std::max({a.x, b.x, c.x}) <= size.x &&
                          std::min({a.y, b.y, c.y}) >= 0 && std::max({a.y, b.y, c.y}) <= size.y;
-      if (below) REQUIRE(length(cross(b - a, c - a)) <= most * most / 6400 * (1 + 1e-9));
+      if (below) REQUIRE(length(cross(b - a, c - a)) <= most * most / 4096 * (1 + 1e-9));
     }
     CHECK(plane.positions.size() < 150000);
   }

@@ -187,3 +187,40 @@ TEST_CASE("automatic exposure takes the radiance that 99 % of the area stays bel
   CHECK(automaticExposure(colors, uneven) == Approx(std::log2(0.9 / 50)).epsilon(1e-6));
   CHECK(automaticExposure(std::vector<Rgb>(3), std::vector<double>(3, 1.0)) == 0);
 }
+
+TEST_CASE("under a rig each point has the blend of what its samples give") {
+  const Parallel parallel(2);
+  std::vector<LightSample> samples;
+  for (std::uint64_t i = 0; i < 7; ++i) {
+    samples.push_back(
+        {Vec3d{signedUnit(30, 3 * i), signedUnit(30, 3 * i + 1), signedUnit(30, 3 * i + 2)}, randomLight(4, 40 + i)});
+  }
+  for (const RigMethod method : {RigMethod::inverseDistance, RigMethod::barycentric}) {
+    const LightRig rig(samples, {method, 2});
+    for (const int channels : {1, 3}) {
+      const TransferSet set = randomTransfer(4, channels, 400);
+      std::vector<Vec3d> places;
+      for (std::uint64_t p = 0; p < 400; ++p) {
+        places.push_back({2 * signedUnit(31, 3 * p), 2 * signedUnit(31, 3 * p + 1), 2 * signedUnit(31, 3 * p + 2)});
+      }
+      const std::vector<Rgb> colors = relight(set, places, rig, {}, parallel);
+      for (std::size_t p = 0; p < set.size(); ++p) {
+        const Light light = rig.at(places[p]);
+        for (int c = 0; c < 3; ++c) {
+          const auto t = set.at(p, channels == 3 ? c : 0);
+          double sum = 0;
+          for (std::size_t i = 0; i < 16; ++i) sum += static_cast<double>(t[i]) * component(light.coefficients[i], c);
+          // 16 terms of at most 1, each sum to (16 / 8 + 6) 2^-24 of them, blended by weights that sum to 1.
+          REQUIRE(std::abs(component(Vec3d(colors[p]), c) - sum) < (16.0 / 8 + 8) * 0x1p-24 * 16);
+        }
+      }
+      CHECK_THROWS_AS(relight(set, std::vector<Vec3d>(3), rig, {}, parallel), Error);
+    }
+  }
+  // One sample is distant light.
+  const LightRig one({samples[0]}, {});
+  const TransferSet set = randomTransfer(5, 3, 50);
+  const std::vector<Vec3d> places(50, Vec3d{1, 2, 3});
+  const RelightOptions window{sh::Window::hann, true};
+  CHECK(relight(set, places, one, window, parallel) == relight(set, samples[0].light, window, parallel));
+}

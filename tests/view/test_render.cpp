@@ -149,7 +149,7 @@ TEST_CASE("a drawn light has its directions in place and negatives in magenta") 
       [&](const Vec3d& d) {
         return radiance({std::abs(d.x), d.y, d.z});
       },
-      64, {}, Parallel(2));
+      64, 1, {}, Parallel(2));
   REQUIRE(picture.width == 128);
   CHECK(picture.at(64, 31).x > 0.99f);  // the centre is +x
   CHECK(picture.at(32, 31).y == 1);     // +y a quarter to the left
