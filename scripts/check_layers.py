@@ -35,6 +35,10 @@ OWNERS = {
     "nlohmann/": {"light", "transfer", "cli"},
     "Eigen/": {"bake", "mesh", "view"},
     "CLI/": {"cli", "bench"},
+    "vcg/": {"meshlab_plugin"},
+    "wrap/": {"meshlab_plugin"},
+    "common/": {"meshlab_plugin"},
+    "GL/": {"meshlab_plugin"},
 }
 
 

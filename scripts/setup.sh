@@ -21,7 +21,11 @@ unlockBuild() { exec 9>&-; }
 
 onTerminal() { [[ -t 0 && -t 2 ]]; }
 
-neededPackages() { sed -E -e 's/[[:space:]]*(#.*)?$//' -e '/^$/d' "$root/packages.txt"; }
+# Files that list packages, and options for configuring: scripts that build more than the program add to them.
+packageLists=("$root/packages.txt")
+cmakeOptions=()
+
+neededPackages() { sed -E -e 's/[[:space:]]*(#.*)?$//' -e '/^$/d' "${packageLists[@]}"; }
 
 missingPackages() {
   local installed
@@ -36,7 +40,7 @@ failWithLog() {
   die "$2 failed; the whole log is $1"
 }
 
-# Installs the Debian packages of packages.txt that are missing; on other systems says what is needed and stops.
+# Installs the Debian packages that are listed and missing; on other systems says what is needed and stops.
 ensurePackages() {
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     die "this is not Debian (no apt-get); install what these Debian packages hold, then run" \
@@ -88,6 +92,21 @@ build() {
   if [[ -d $folder ]]; then say "updating the $preset build; log in ${log#"$root"/}"; else
     say "building ($preset, the first time takes a few minutes); log in ${log#"$root"/}"
   fi
-  (cd "$root" && cmake --preset "$preset") >"$log" 2>&1 </dev/null || failWithLog "$log" "configuring"
+  (cd "$root" && cmake --preset "$preset" "${cmakeOptions[@]}") >"$log" 2>&1 </dev/null || failWithLog "$log" "configuring"
   NINJA_STATUS='[%f/%t] ' ninja -C "$folder" "$@" 2>&1 </dev/null | countSteps "$log" || failWithLog "$log" "building"
+}
+
+# Adds the MeshLab plugin to what is configured, with its packages and MeshLab's headers. Returns false, having said why,
+# where these cannot be had.
+addMeshLabPlugin() {
+  local log=$root/build/meshlab-source.log list=$root/meshlab_plugin/packages.txt
+  cmakeOptions+=(-DSHBAKE_MESHLAB=OFF)
+  # In a shell of its own, which ends where a package cannot be installed.
+  (packageLists+=("$list") && ensurePackages) || return 1
+  if ! "$root/scripts/fetch_meshlab_source.sh" "$root/build/meshlab-source" >"$log" 2>&1 </dev/null; then
+    tail -n 3 "$log" >&2
+    say "MeshLab's source package, which holds its headers, cannot be fetched; the whole log is $log"
+    return 1
+  fi
+  cmakeOptions+=(-DSHBAKE_MESHLAB=ON)
 }

@@ -109,8 +109,7 @@ bool FilterShbake::open(const QString&, const QString& path, MeshModel& layer, i
     ProgressWindow window(QStringLiteral("Opening a baked mesh"));
     mask = filters_.load(wholePath(path), layer, watchWith(window, callback));
   });
-  MeshIOInterface::errorMessage = QString::fromStdString(failure);
-  return failure.empty();
+  return reported(failure);
 }
 
 bool FilterShbake::save(const QString&, const QString& path, MeshModel& layer, const int,
@@ -119,9 +118,15 @@ bool FilterShbake::save(const QString&, const QString& path, MeshModel& layer, c
     ProgressWindow window(QStringLiteral("Saving a baked mesh"));
     filters_.save(wholePath(path), layer, formatIsAscii(parameters), watchWith(window, callback));
   });
-  MeshIOInterface::errorMessage = QString::fromStdString(failure);
-  if (!failure.empty()) MeshIOInterface::Log(failure);
-  return failure.empty();
+  return reported(failure);
+}
+
+bool FilterShbake::reported(const std::string& failure) {
+  MeshIOInterface::errorMessage = QString::fromStdString(failure).toHtmlEscaped();
+  if (failure.empty()) return true;
+  // The window shows the message; meshlabserver prints neither it nor the log of a file.
+  qWarning("%s", failure.c_str());
+  return false;
 }
 
 MESHLAB_PLUGIN_NAME_EXPORTER(FilterShbake)

@@ -37,5 +37,8 @@ class FilterShbake : public QObject, public MeshFilterInterface, public MeshIOIn
             vcg::CallBackPos* callback, QWidget*) override;
 
  private:
+  /// Hands on why a file could not be read or written; true where there is nothing to tell.
+  bool reported(const std::string& failure);
+
   shbake::meshlab::Filters filters_;
 };
