@@ -76,7 +76,8 @@ void measure(const std::string& name, const Options& o, const Parallel& parallel
   Albedo albedo;
   const auto a = static_cast<float>(o.albedo);
   albedo.values = {Rgb(a, a, a)};
-  const LightingPoints points = makeLightingPoints(mesh, {}, albedo);
+  Progress progress;
+  const LightingPoints points = makeLightingPoints(mesh, {}, albedo, progress);
   const auto chosen = choosePoints(points, o.points);
   const auto areas = pointAreas(points);
   const auto reference = makeReference(points, chosen, o, parallel);
@@ -86,7 +87,6 @@ void measure(const std::string& name, const Options& o, const Parallel& parallel
     bake.kind = o.interreflected ? TransferKind::interreflected : TransferKind::shadowed;
     bake.order = o.order;
     bake.rays = rays;
-    Progress progress;
     const PointBake baked = bakePoints(points, {}, bake, parallel, progress);
     const Agreement g = compare(baked.transfer, reference, o.albedo, chosen, areas);
     std::printf("%-26s %7zu %6d %9.3f %9.3f %7.2f %9.2f\n", label.c_str(), points.size(), rays, 100 * g.statedRms,

@@ -47,7 +47,8 @@ LightingPoints pointsOf(const std::string& name, const Rgb& albedo) {
   const Mesh mesh = namedMesh(name);
   Albedo a;
   a.values = {albedo};
-  return makeLightingPoints(mesh, {}, a);
+  Progress progress;
+  return makeLightingPoints(mesh, {}, a, progress);
 }
 
 void overRaw(const std::string& label, const LightingPoints& points, int rays, int repetitions) {

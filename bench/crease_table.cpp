@@ -35,9 +35,10 @@ void printHeader(const char* what) {
 
 // The points beyond one a position, in percent of the positions, for each crease angle.
 void printSplits(const std::string& name, const Mesh& mesh) {
+  Progress progress;
   for (std::size_t i = 0; i < std::size(kAngles); ++i) {
     const LightingPoints points =
-        makeLightingPoints(mesh, {.normals = NormalSource::smooth, .creaseDegrees = double(kAngles[i])}, {});
+        makeLightingPoints(mesh, {.normals = NormalSource::smooth, .creaseDegrees = double(kAngles[i])}, {}, progress);
     const std::size_t positions = points.positions.size();
     if (i == 0) std::printf("| %s | %zu |", name.c_str(), positions);
     std::printf(" %.2f |", 100.0 * static_cast<double>(points.size() - positions) / static_cast<double>(positions));
@@ -52,13 +53,15 @@ struct Bend {
 };
 
 std::vector<Bend> bendsOf(const Mesh& mesh) {
-  const LightingPoints points = makeLightingPoints(mesh, {.normals = NormalSource::smooth}, {});
+  Progress progress;
+  const LightingPoints points = makeLightingPoints(mesh, {.normals = NormalSource::smooth}, {}, progress);
   std::vector<Triangle> faces = points.faces;
   for (std::size_t f = 0; f < faces.size(); ++f) {
     if (points.turned[f]) std::swap(faces[f][1], faces[f][2]);
   }
+  Passes passes(progress, "bends", faces.size(), "faces", 5);
   const std::vector<std::uint32_t> opposite =
-      oppositeHalfEdges(points.positions, faces, cornersAtPositions(faces, points.positions.size()));
+      oppositeHalfEdges(points.positions, faces, cornersAtPositions(faces, points.positions.size(), passes), passes);
   std::vector<Bend> bends;
   for (std::uint32_t h = 0; h < opposite.size(); ++h) {
     if (opposite[h] == kNoCorner || opposite[h] < h) continue;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/passes.h"
 #include "mesh/mesh.h"
 
 namespace shbake {
@@ -24,22 +25,22 @@ struct FaceSide {
 class EdgeGroups {
  public:
   /// `faces` are triples of point numbers below `points`; faces with a number twice have no sides. `faces` must outlive
-  /// the object. At most 1.4e9 faces.
-  EdgeGroups(std::span<const Triangle> faces, std::size_t points);
+  /// the object. At most 1.4e9 faces. Four passes.
+  EdgeGroups(std::span<const Triangle> faces, std::size_t points, Passes& passes);
 
   /// Calls `visit(std::span<const FaceSide>)` for each edge, in ascending order of its lesser and greater point; the
-  /// sides of an edge ascend by face.
+  /// sides of an edge ascend by face. One pass.
   template <class Visit>
-  void forEach(Visit&& visit) const {
+  void forEach(Passes& passes, Visit&& visit) const {
     std::vector<FaceSide> group;
-    for (std::size_t low = 0; low + 1 < starts_.size(); ++low) {
+    passes.forEach(starts_.size() - 1, [&](std::size_t low) {
       for (std::size_t i = starts_[low]; i < starts_[low + 1];) {
         const std::uint32_t high = sides_[i].high;
         group.clear();
         for (; i < starts_[low + 1] && sides_[i].high == high; ++i) group.push_back({sides_[i].side});
         visit(std::span<const FaceSide>(group));
       }
-    }
+    });
   }
 
   /// The point at a corner (3 * face + 0..2).

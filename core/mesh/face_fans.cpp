@@ -88,17 +88,18 @@ class EdgePairing {
 
 }  // namespace
 
-PackedLists cornersAtPositions(const std::vector<Triangle>& faces, std::size_t positions) {
+PackedLists cornersAtPositions(const std::vector<Triangle>& faces, std::size_t positions, Passes& passes) {
   PackedLists lists;
   lists.starts.assign(positions + 1, 0);
   lists.items.resize(3 * faces.size());
-  for (const Triangle& face : faces) {
-    for (const std::uint32_t p : face) ++lists.starts[p + 1];
-  }
-  for (std::size_t p = 0; p < positions; ++p) lists.starts[p + 1] += lists.starts[p];
+  passes.forEach(faces.size(), [&](std::size_t f) {
+    for (const std::uint32_t p : faces[f]) ++lists.starts[p + 1];
+  });
+  passes.forEach(positions, [&](std::size_t p) { lists.starts[p + 1] += lists.starts[p]; });
   // Filling moves each start to the next list's; shifting them back by one place restores them.
-  for (std::uint32_t c = 0; c < lists.items.size(); ++c) lists.items[lists.starts[positionAt(faces, c)]++] = c;
-  for (std::size_t p = positions; p > 0; --p) lists.starts[p] = lists.starts[p - 1];
+  passes.forEach<std::uint32_t>(lists.items.size(),
+                                [&](std::uint32_t c) { lists.items[lists.starts[positionAt(faces, c)]++] = c; });
+  passes.forEach(positions, [&](std::size_t i) { lists.starts[positions - i] = lists.starts[positions - i - 1]; });
   lists.starts[0] = 0;
   return lists;
 }
@@ -110,20 +111,20 @@ Vec3d faceNormal(const std::vector<Vec3f>& positions, const Triangle& face) {
 }
 
 std::vector<std::uint32_t> oppositeHalfEdges(const std::vector<Vec3f>& positions, const std::vector<Triangle>& faces,
-                                             const PackedLists& corners) {
+                                             const PackedLists& corners, Passes& passes) {
   EdgePairing pairing(positions, faces);
   std::vector<Spoke> spokes;
-  for (std::uint32_t p = 0; p < corners.size(); ++p) {
+  passes.forEach<std::uint32_t>(corners.size(), [&](std::uint32_t p) {
     collectSpokes(faces, corners[p], p, spokes);
     for (std::size_t begin = 0, end = 0; begin < spokes.size(); begin = end) {
       while (end < spokes.size() && spokes[end].otherEnd == spokes[begin].otherEnd) ++end;
       pairing.addEdge({spokes.data() + begin, end - begin});
     }
-  }
+  });
   return pairing.result();
 }
 
-FaceFans faceFans(const std::vector<Triangle>& faces, const std::vector<std::uint32_t>& opposite) {
+FaceFans faceFans(const std::vector<Triangle>& faces, const std::vector<std::uint32_t>& opposite, Passes& passes) {
   FaceFans fans;
   fans.ofCorner.assign(opposite.size(), kNoCorner);
   // Around a position, a corner's neighbour clockwise lies across its outgoing half-edge, the other across its incoming
@@ -132,8 +133,8 @@ FaceFans faceFans(const std::vector<Triangle>& faces, const std::vector<std::uin
     return opposite[c] == kNoCorner ? kNoCorner : nextCorner(opposite[c]);
   };
   const auto counterClockwise = [&](std::uint32_t c) { return opposite[previousCorner(c)]; };
-  for (std::uint32_t c = 0; c < opposite.size(); ++c) {
-    if (fans.ofCorner[c] != kNoCorner || isDegenerate(faces[c / 3])) continue;
+  passes.forEach<std::uint32_t>(opposite.size(), [&](std::uint32_t c) {
+    if (fans.ofCorner[c] != kNoCorner || isDegenerate(faces[c / 3])) return;
     std::uint32_t first = c;
     for (std::uint32_t back = clockwise(c); back != kNoCorner && back != c; back = clockwise(back)) first = back;
     const auto fan = static_cast<std::uint32_t>(fans.position.size());
@@ -141,7 +142,7 @@ FaceFans faceFans(const std::vector<Triangle>& faces, const std::vector<std::uin
     for (std::uint32_t at = first; at != kNoCorner && fans.ofCorner[at] == kNoCorner; at = counterClockwise(at)) {
       fans.ofCorner[at] = fan;
     }
-  }
+  });
   fans.position.shrink_to_fit();
   return fans;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/passes.h"
 #include "base/vec3.h"
 #include "mesh/mesh.h"
 #include "mesh/packed_lists.h"
@@ -30,7 +31,8 @@ constexpr bool isDegenerate(const Triangle& face) {
 }
 
 /// The corners at each position (of degenerate faces too) in ascending order. Requires position ids < `positions`.
-PackedLists cornersAtPositions(const std::vector<Triangle>& faces, std::size_t positions);
+/// Four passes.
+PackedLists cornersAtPositions(const std::vector<Triangle>& faces, std::size_t positions, Passes& passes);
 
 /// The unit normal of a face; zero when it has no extent. The same bits whichever corner the face begins with.
 Vec3d faceNormal(const std::vector<Vec3f>& positions, const Triangle& face);
@@ -38,9 +40,9 @@ Vec3d faceNormal(const std::vector<Vec3f>& positions, const Triangle& face);
 /// The half-edge on the other side of each half-edge; kNoCorner at a boundary, between faces wound against each other,
 /// and in degenerate faces. Where more than two faces share an edge, a surface goes on from one face to another that is
 /// wound alike when each is the other's smoothest continuation, without a tie; the rest is cut. `positions` are in work
-/// units.
+/// units. One pass.
 std::vector<std::uint32_t> oppositeHalfEdges(const std::vector<Vec3f>& positions, const std::vector<Triangle>& faces,
-                                             const PackedLists& corners);
+                                             const PackedLists& corners, Passes& passes);
 
 inline constexpr std::uint32_t kNoCorner = 0xFFFFFFFFu;
 
@@ -51,6 +53,7 @@ struct FaceFans {
   std::vector<std::uint32_t> position;  ///< the position of each fan
 };
 
-FaceFans faceFans(const std::vector<Triangle>& faces, const std::vector<std::uint32_t>& opposite);
+/// Clusters the corners of all faces by their opposite half-edges. One pass.
+FaceFans faceFans(const std::vector<Triangle>& faces, const std::vector<std::uint32_t>& opposite, Passes& passes);
 
 }  // namespace shbake

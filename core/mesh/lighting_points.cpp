@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/passes.h"
 #include "mesh/face_fans.h"
 #include "mesh/smooth_normals.h"
 #include "mesh/weld.h"
@@ -23,7 +24,8 @@ namespace {
 // same.
 constexpr float kSameNormal = 1e-6f;
 
-void checkInput(const Mesh& mesh, const LightingPointOptions& options, const Albedo& albedo) {
+// What can be told without looking at every face.
+void checkSizes(const Mesh& mesh, const LightingPointOptions& options, const Albedo& albedo) {
   if (!(options.creaseDegrees >= 0 && options.creaseDegrees <= 180)) {
     throw usageError("the crease angle is " + std::to_string(options.creaseDegrees) + " degrees",
                      "give an angle from 0 to 180");
@@ -37,7 +39,17 @@ void checkInput(const Mesh& mesh, const LightingPointOptions& options, const Alb
                  .remedy = "split it into parts of at most " + std::to_string(LightingPoints::kMaxFaces)});
   }
   const std::size_t vertices = mesh.positions.size(), faces = mesh.triangles.size();
-  for (std::size_t f = 0; f < faces; ++f) {
+  const std::size_t needed = albedo.per == Albedo::Per::mesh ? 1 : albedo.per == Albedo::Per::vertex ? vertices : faces;
+  if (albedo.values.size() != needed) {
+    throw usageError("there are " + std::to_string(albedo.values.size()) + " albedo values where " +
+                     std::to_string(needed) + " are needed");
+  }
+}
+
+// Two passes.
+void checkValues(const Mesh& mesh, const Albedo& albedo, Passes& passes) {
+  const std::size_t vertices = mesh.positions.size();
+  passes.forEach(mesh.triangles.size(), [&](std::size_t f) {
     for (const std::uint32_t v : mesh.triangles[f]) {
       if (v < vertices && isFinite(mesh.positions[v])) continue;
       const std::string name = "vertex " + std::to_string(v);
@@ -46,15 +58,10 @@ void checkInput(const Mesh& mesh, const LightingPointOptions& options, const Alb
                    .cause = v < vertices ? name + " is not at a finite position" : name + " does not exist",
                    .remedy = "repair the mesh"});
     }
-  }
-  const std::size_t needed = albedo.per == Albedo::Per::mesh ? 1 : albedo.per == Albedo::Per::vertex ? vertices : faces;
-  if (albedo.values.size() != needed) {
-    throw usageError("there are " + std::to_string(albedo.values.size()) + " albedo values where " +
-                     std::to_string(needed) + " are needed");
-  }
-  if (!std::all_of(albedo.values.begin(), albedo.values.end(), [](const Rgb& rho) { return isFinite(rho); })) {
-    throw usageError("an albedo value is not a finite number");
-  }
+  });
+  passes.forEach(albedo.values.size(), [&](std::size_t i) {
+    if (!isFinite(albedo.values[i])) throw usageError("an albedo value is not a finite number");
+  });
 }
 
 // A vector of the file at unit length; nothing when it points nowhere.
@@ -66,11 +73,11 @@ std::optional<Vec3f> usableNormal(const Vec3f& stored) {
 // The normal of each corner, from where the options say.
 class CornerNormals {
  public:
-  CornerNormals(const Mesh& mesh, const LightingPointOptions& options, const LightingPoints& points)
+  CornerNormals(const Mesh& mesh, const LightingPointOptions& options, const LightingPoints& points, Progress& progress)
       : mesh_(mesh), points_(points), source_(options.normals) {
-    const bool fromFile = source_ == NormalSource::automatic && allOfFile();
+    const bool fromFile = source_ == NormalSource::automatic && allOfFile(progress);
     if (source_ != NormalSource::flat && !fromFile) {
-      smooth_ = smoothNormals(points.positions, points.faces, options.creaseDegrees * std::numbers::pi / 180);
+      smooth_ = smoothNormals(points.positions, points.faces, options.creaseDegrees * std::numbers::pi / 180, progress);
     }
   }
 
@@ -94,11 +101,13 @@ class CornerNormals {
     return std::nullopt;
   }
 
-  bool allOfFile() const {
-    for (std::uint32_t c = 0; c < 3 * mesh_.triangles.size(); ++c) {
-      if (!ofFile(c)) return false;
-    }
-    return true;
+  bool allOfFile(Progress& progress) const {
+    if (mesh_.cornerNormals.empty() && mesh_.vertexNormals.empty()) return false;
+    bool all = true;
+    Passes passes(progress, "normals", mesh_.triangles.size(), "faces", 1);
+    passes.forEach<std::uint32_t>(3 * mesh_.triangles.size(), [&](std::uint32_t c) { all = all && ofFile(c); });
+    passes.end();
+    return all;
   }
 
   const Mesh& mesh_;
@@ -181,19 +190,19 @@ class PointMaker {
 };
 
 void makePoints(const Mesh& mesh, const Albedo& albedo, const CornerNormals& normals, const PackedLists& corners,
-                LightingPoints& points) {
+                LightingPoints& points, Passes& passes) {
   points.facePoints.resize(points.faces.size());
   points.pointPosition.reserve(corners.size());
   points.pointNormal.reserve(corners.size());
   points.pointAlbedo.reserve(corners.size());
   PointMaker maker(mesh, albedo, normals, points);
-  for (std::uint32_t p = 0; p < corners.size(); ++p) maker.addPosition(p, corners[p]);
+  passes.forEach<std::uint32_t>(corners.size(), [&](std::uint32_t p) { maker.addPosition(p, corners[p]); });
 }
 
 // Turns lists of corners into lists of faces, in place and without the degenerate ones.
-PackedLists facesAtPositions(const std::vector<Triangle>& faces, PackedLists corners) {
+PackedLists facesAtPositions(const std::vector<Triangle>& faces, PackedLists corners, Passes& passes) {
   std::uint32_t kept = 0, begin = 0;
-  for (std::size_t p = 0; p < corners.size(); ++p) {
+  passes.forEach(corners.size(), [&](std::size_t p) {
     const std::uint32_t end = corners.starts[p + 1];
     for (std::uint32_t i = begin; i < end; ++i) {
       const std::uint32_t face = corners.items[i] / 3;
@@ -201,33 +210,33 @@ PackedLists facesAtPositions(const std::vector<Triangle>& faces, PackedLists cor
     }
     corners.starts[p + 1] = kept;
     begin = end;
-  }
+  });
   corners.items.resize(kept);
   return corners;
 }
 
 // Winds each face so that its front is the side of its corners' normals.
-void turnFaces(LightingPoints& points) {
+void turnFaces(LightingPoints& points, Passes& passes) {
   points.turned.assign(points.faces.size(), 0);
-  for (std::size_t f = 0; f < points.faces.size(); ++f) {
+  passes.forEach(points.faces.size(), [&](std::size_t f) {
     Triangle &face = points.faces[f], &corners = points.facePoints[f];
     Vec3d sum;
     for (const std::uint32_t q : corners) sum += Vec3d(points.pointNormal[q]);
-    if (dot(faceNormal(points.positions, face), sum) >= 0) continue;
+    if (dot(faceNormal(points.positions, face), sum) >= 0) return;
     std::swap(face[1], face[2]);
     std::swap(corners[1], corners[2]);
     points.turned[f] = 1;
-  }
+  });
 }
 
 // Lists the vertices to write. A vertex that was split keeps the point of its first corner; each further point gets a
-// vertex of its own, found again through the list of those that were appended for that point.
-void numberOutput(const Mesh& mesh, LightingPoints& points) {
+// vertex of its own, found again through the list of those that were appended for that point. Two passes.
+void numberOutput(const Mesh& mesh, LightingPoints& points, Passes& passes) {
   constexpr std::uint32_t kNone = LightingPoints::kNone;
   const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
   points.outputPoint.assign(vertices, kNone);
   points.outputSource.resize(vertices);
-  for (std::uint32_t v = 0; v < vertices; ++v) points.outputSource[v] = v;
+  passes.forEach<std::uint32_t>(vertices, [&](std::uint32_t v) { points.outputSource[v] = v; });
   points.outputFaces.resize(mesh.triangles.size());
   std::vector<std::uint32_t> latest(points.size(), kNone), earlier;  // appended vertices by point, and chained by index
 
@@ -243,36 +252,48 @@ void numberOutput(const Mesh& mesh, LightingPoints& points) {
     earlier.push_back(std::exchange(latest[point], added));
     return added;
   };
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+  passes.forEach(mesh.triangles.size(), [&](std::size_t f) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t turned = points.turned[f] && k > 0 ? 3 - k : k;
       points.outputFaces[f][k] = outputOf(mesh.triangles[f][k], points.facePoints[f][turned]);
     }
-  }
+  });
+}
+
+// The positions of a mesh, and its faces between them.
+void weldFaces(const Mesh& mesh, const Albedo& albedo, LightingPoints& points, Progress& progress) {
+  // Values 2, frame 1, weld 3, faces 1.
+  Passes passes(progress, "welding", mesh.triangles.size(), "faces", 7);
+  checkValues(mesh, albedo, passes);
+  points.frame = workFrameOf(mesh, passes);
+  Weld weld = weldPositions(mesh, points.frame, passes);
+  points.positions = std::move(weld.positions);
+  points.faces.reserve(mesh.triangles.size());
+  passes.forEach(mesh.triangles.size(), [&](std::size_t f) {
+    const Triangle& t = mesh.triangles[f];
+    points.faces.push_back({weld.ofVertex[t[0]], weld.ofVertex[t[1]], weld.ofVertex[t[2]]});
+  });
+  passes.end();
 }
 
 }  // namespace
 
-LightingPoints makeLightingPoints(const Mesh& mesh, const LightingPointOptions& options, const Albedo& albedo) {
-  checkInput(mesh, options, albedo);
+LightingPoints makeLightingPoints(const Mesh& mesh, const LightingPointOptions& options, const Albedo& albedo,
+                                  Progress& progress) {
+  checkSizes(mesh, options, albedo);
   LightingPoints points;
-  points.frame = workFrameOf(mesh);
-  Weld weld = weldPositions(mesh, points.frame);
-  points.positions = std::move(weld.positions);
-  points.faces.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
-    points.faces.push_back({weld.ofVertex[t[0]], weld.ofVertex[t[1]], weld.ofVertex[t[2]]});
-  }
-  weld.ofVertex = {};
+  weldFaces(mesh, albedo, points, progress);
+  std::optional<CornerNormals> normals(std::in_place, mesh, options, points, progress);
 
-  {
-    const CornerNormals normals(mesh, options, points);
-    PackedLists corners = cornersAtPositions(points.faces, points.positions.size());
-    makePoints(mesh, albedo, normals, corners, points);
-    points.positionFaces = facesAtPositions(points.faces, std::move(corners));
-  }
-  turnFaces(points);
-  numberOutput(mesh, points);
+  // Corners 4, points 1, faces at positions 1, turned faces 1, output 2.
+  Passes passes(progress, "lighting points", mesh.triangles.size(), "faces", 9);
+  PackedLists corners = cornersAtPositions(points.faces, points.positions.size(), passes);
+  makePoints(mesh, albedo, *normals, corners, points, passes);
+  normals.reset();
+  points.positionFaces = facesAtPositions(points.faces, std::move(corners), passes);
+  turnFaces(points, passes);
+  numberOutput(mesh, points, passes);
+  passes.end();
   return points;
 }
 

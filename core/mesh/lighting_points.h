@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/progress.h"
 #include "base/vec3.h"
 #include "mesh/mesh.h"
 #include "mesh/packed_lists.h"
@@ -69,7 +70,8 @@ struct LightingPoints {
 /// cancel. Points, positions and their numbers depend on the geometry, normals and albedo, not on the order of vertices
 /// and faces. Throws a usage error when the crease angle is outside 0..180 or the albedo's values do not fit the mesh,
 /// and a work error when the mesh has no faces, more than kMaxFaces, an index outside its vertices, or a position that
-/// is not finite.
-LightingPoints makeLightingPoints(const Mesh& mesh, const LightingPointOptions& options, const Albedo& albedo);
+/// is not finite. Progress counts faces.
+LightingPoints makeLightingPoints(const Mesh& mesh, const LightingPointOptions& options, const Albedo& albedo,
+                                  Progress& progress);
 
 }  // namespace shbake

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
 #include "mesh/mesh.h"
 
 namespace shbake {
@@ -62,7 +63,8 @@ struct MeshCheck {
 
 /// Examines a mesh whose indices are in range and whose positions are finite. Takes O(V + F log F) time and, beside the
 /// mesh, about 60 bytes a face. Throws an Error for more than 1.4e9 faces, whose corners 32 bits cannot number.
-MeshCheck checkMesh(const Mesh& mesh);
+/// Progress counts faces.
+MeshCheck checkMesh(const Mesh& mesh, Progress& progress);
 
 /// One sentence a finding, with what it means for the light: only for what was found, the gravest first. A clean mesh
 /// gives none.

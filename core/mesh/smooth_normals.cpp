@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/passes.h"
 #include "mesh/face_fans.h"
 
 namespace shbake {
@@ -36,59 +37,64 @@ VertexHandle vertexHandle(std::uint32_t i) {
 // edge up again by walking round its vertex, which takes quadratic time at the apex of a large fan.
 class HalfEdges {
  public:
-  HalfEdges(const std::vector<Triangle>& faces, std::vector<std::uint32_t> opposite, const FaceFans& fans) {
+  static constexpr int kPasses = 7;
+
+  HalfEdges(const std::vector<Triangle>& faces, std::vector<std::uint32_t> opposite, const FaceFans& fans,
+            Passes& passes) {
     std::size_t paired = 0, used = 0;
-    for (std::uint32_t c = 0; c < opposite.size(); ++c) {
+    passes.forEach(opposite.size(), [&](std::size_t c) {
       paired += opposite[c] != kNoCorner;
       used += fans.ofCorner[c] != kNoCorner;
-    }
+    });
     mesh_.reserve(fans.position.size(), used - paired / 2, faces.size());
-    for (std::size_t v = 0; v < fans.position.size(); ++v) mesh_.new_vertex();
-    for (std::size_t f = 0; f < faces.size(); ++f) mesh_.new_face();
-    const std::vector<std::uint32_t> handles = makeEdges(std::move(opposite), fans);
-    linkFaces(handles, fans);
-    linkBoundaries();
+    passes.forEach(fans.position.size(), [&](std::size_t) { mesh_.new_vertex(); });
+    passes.forEach(faces.size(), [&](std::size_t) { mesh_.new_face(); });
+    const std::vector<std::uint32_t> handles = makeEdges(std::move(opposite), fans, passes);
+    linkFaces(handles, fans, passes);
+    linkBoundaries(passes);
   }
 
   const TriConnectivity& mesh() const { return mesh_; }
 
  private:
   // Turns the table of opposite half-edges into one of handles, in place.
-  std::vector<std::uint32_t> makeEdges(std::vector<std::uint32_t> opposite, const FaceFans& fans) {
+  std::vector<std::uint32_t> makeEdges(std::vector<std::uint32_t> opposite, const FaceFans& fans, Passes& passes) {
     std::vector<bool> made(opposite.size());
-    for (std::uint32_t h = 0; h < opposite.size(); ++h) {
-      if (made[h] || fans.ofCorner[h] == kNoCorner) continue;
+    passes.forEach<std::uint32_t>(opposite.size(), [&](std::uint32_t h) {
+      if (made[h] || fans.ofCorner[h] == kNoCorner) return;
       const HalfedgeHandle handle =
           mesh_.new_edge(vertexHandle(fans.ofCorner[h]), vertexHandle(fans.ofCorner[nextCorner(h)]));
       const std::uint32_t other = std::exchange(opposite[h], static_cast<std::uint32_t>(handle.idx()));
-      if (other == kNoCorner) continue;
+      if (other == kNoCorner) return;
       opposite[other] = static_cast<std::uint32_t>(mesh_.opposite_halfedge_handle(handle).idx());
       made[other] = true;
-    }
+    });
     return opposite;
   }
 
-  void linkFaces(const std::vector<std::uint32_t>& handles, const FaceFans& fans) {
-    for (std::uint32_t h = 0; h < handles.size(); ++h) {
-      if (fans.ofCorner[h] == kNoCorner) continue;
+  void linkFaces(const std::vector<std::uint32_t>& handles, const FaceFans& fans, Passes& passes) {
+    passes.forEach<std::uint32_t>(handles.size(), [&](std::uint32_t h) {
+      if (fans.ofCorner[h] == kNoCorner) return;
       const HalfedgeHandle handle(static_cast<int>(handles[h]));
       const FaceHandle face(static_cast<int>(h / 3));
       mesh_.set_face_handle(handle, face);
       mesh_.set_halfedge_handle(face, handle);
       mesh_.set_halfedge_handle(vertexHandle(fans.ofCorner[h]), handle);
       mesh_.set_next_halfedge_handle(handle, HalfedgeHandle(static_cast<int>(handles[nextCorner(h)])));
-    }
+    });
   }
 
   // An open fan has one boundary half-edge that leaves its vertex (from which OpenMesh begins to circulate) and one
   // that arrives there.
-  void linkBoundaries() {
-    for (const HalfedgeHandle h : mesh_.halfedges()) {
+  void linkBoundaries(Passes& passes) {
+    passes.forEach<int>(mesh_.n_halfedges(), [&](int i) {
+      const HalfedgeHandle h(i);
       if (mesh_.is_boundary(h)) mesh_.set_halfedge_handle(mesh_.from_vertex_handle(h), h);
-    }
-    for (const HalfedgeHandle h : mesh_.halfedges()) {
+    });
+    passes.forEach<int>(mesh_.n_halfedges(), [&](int i) {
+      const HalfedgeHandle h(i);
       if (mesh_.is_boundary(h)) mesh_.set_next_halfedge_handle(h, mesh_.halfedge_handle(mesh_.to_vertex_handle(h)));
-    }
+    });
   }
 
   TriConnectivity mesh_;
@@ -174,11 +180,13 @@ void addSectors(const std::vector<RingCorner>& ring, SmoothNormals& result) {
 }  // namespace
 
 SmoothNormals smoothNormals(const std::vector<Vec3f>& positions, const std::vector<Triangle>& faces,
-                            double creaseRadians) {
+                            double creaseRadians, Progress& progress) {
+  // Corners 4, opposite half-edges, fans, and the ring of each fan 1.
+  Passes passes(progress, "normals", faces.size(), "faces", 7 + HalfEdges::kPasses);
   std::vector<std::uint32_t> opposite =
-      oppositeHalfEdges(positions, faces, cornersAtPositions(faces, positions.size()));
-  FaceFans fans = faceFans(faces, opposite);
-  const HalfEdges halfEdges(faces, std::move(opposite), fans);
+      oppositeHalfEdges(positions, faces, cornersAtPositions(faces, positions.size(), passes), passes);
+  FaceFans fans = faceFans(faces, opposite, passes);
+  const HalfEdges halfEdges(faces, std::move(opposite), fans, passes);
   const TriConnectivity& mesh = halfEdges.mesh();
 
   // The table of fans becomes that of sectors: a corner is looked up by position from here on.
@@ -190,7 +198,8 @@ SmoothNormals smoothNormals(const std::vector<Vec3f>& positions, const std::vect
   result.normals.reserve(fans.position.size());
   std::size_t visited = 0;
   std::vector<RingCorner> ring;
-  for (const VertexHandle vertex : mesh.vertices()) {
+  passes.forEach<std::uint32_t>(mesh.n_vertices(), [&](std::uint32_t v) {
+    const VertexHandle vertex = vertexHandle(v);
     const std::uint32_t position = fans.position[static_cast<std::size_t>(vertex.idx())];
     ring.clear();
     for (const FaceHandle face : mesh.vf_ccw_range(vertex)) {
@@ -209,12 +218,13 @@ SmoothNormals smoothNormals(const std::vector<Vec3f>& positions, const std::vect
     }
     cutRing(ring, closed, creaseRadians);
     addSectors(ring, result);
-  }
+  });
   if (visited != expected) {
     throw Error({.cause = "the half-edge structure holds " + std::to_string(visited) + " of " +
                           std::to_string(expected) + " face corners",
                  .remedy = "please report this mesh as a fault of shbake"});
   }
+  passes.end();
   return result;
 }
 

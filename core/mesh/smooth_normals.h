@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/progress.h"
 #include "base/vec3.h"
 #include "mesh/mesh.h"
 
@@ -25,8 +26,8 @@ struct SmoothNormals {
 /// - Normals that cancel: the sector takes its first face's. Only such flat faces: the sum of their cross products.
 /// - Corners of degenerate faces, and of sectors without any extent, get kNone.
 /// `positions` are in work units, `faces` triples of position ids. Throws a work error when the half-edge structure
-/// does not hold every corner.
+/// does not hold every corner. Progress counts faces.
 SmoothNormals smoothNormals(const std::vector<Vec3f>& positions, const std::vector<Triangle>& faces,
-                            double creaseRadians);
+                            double creaseRadians, Progress& progress);
 
 }  // namespace shbake

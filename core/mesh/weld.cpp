@@ -35,31 +35,32 @@ struct CodedVertex {
 
 }  // namespace
 
-Weld weldPositions(const Mesh& mesh, const WorkFrame& frame) {
+Weld weldPositions(const Mesh& mesh, const WorkFrame& frame, Passes& passes) {
   Weld weld;
   weld.ofVertex.assign(mesh.positions.size(), Weld::kUnused);
   std::vector<Vec3f> work(mesh.positions.size());
   std::vector<CodedVertex> order;
   order.reserve(mesh.positions.size());
-  for (const Triangle& triangle : mesh.triangles) {
-    for (const std::uint32_t v : triangle) {
+  passes.forEach(mesh.triangles.size(), [&](std::size_t f) {
+    for (const std::uint32_t v : mesh.triangles[f]) {
       if (weld.ofVertex[v] != Weld::kUnused) continue;
       weld.ofVertex[v] = 0;
       work[v] = frame.toWork(mesh.positions[v]);
       order.push_back({mortonCode(work[v]), v});
     }
-  }
+  });
 
   // Positions of one cell follow each other by coordinate, so that equal ones are neighbours and the order is complete.
-  std::sort(order.begin(), order.end(), [&work](const CodedVertex& a, const CodedVertex& b) {
+  passes.sort(order.begin(), order.end(), [&work](const CodedVertex& a, const CodedVertex& b) {
     const Vec3f &p = work[a.vertex], &q = work[b.vertex];
     return std::tie(a.code, p.x, p.y, p.z) < std::tie(b.code, q.x, q.y, q.z);
   });
-  for (const CodedVertex& item : order) {
+  passes.forEach(order.size(), [&](std::size_t i) {
+    const CodedVertex& item = order[i];
     const Vec3f& p = work[item.vertex];
     if (weld.positions.empty() || !(weld.positions.back() == p)) weld.positions.push_back(p);
     weld.ofVertex[item.vertex] = static_cast<std::uint32_t>(weld.positions.size() - 1);
-  }
+  });
   weld.positions.shrink_to_fit();
   return weld;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/passes.h"
 #include "base/vec3.h"
 #include "mesh/mesh.h"
 #include "mesh/work_frame.h"
@@ -19,7 +20,7 @@ struct Weld {
 };
 
 /// Welds the vertices whose work positions agree bit for bit. Ids depend on the positions alone, not on their order in
-/// the mesh. Requires indices < V and finite positions.
-Weld weldPositions(const Mesh& mesh, const WorkFrame& frame);
+/// the mesh. Requires indices < V and finite positions. Three passes.
+Weld weldPositions(const Mesh& mesh, const WorkFrame& frame, Passes& passes);
 
 }  // namespace shbake

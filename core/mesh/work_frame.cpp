@@ -21,16 +21,16 @@ double scaleFor(double halfExtent) {
 
 }  // namespace
 
-WorkFrame workFrameOf(const Mesh& mesh) {
+WorkFrame workFrameOf(const Mesh& mesh, Passes& passes) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Vec3d low(kInfinity, kInfinity, kInfinity), high = -low;
-  for (const Triangle& triangle : mesh.triangles) {
-    for (const std::uint32_t v : triangle) {
+  passes.forEach(mesh.triangles.size(), [&](std::size_t f) {
+    for (const std::uint32_t v : mesh.triangles[f]) {
       const Vec3d& p = mesh.positions[v];
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-  }
+  });
   WorkFrame frame;
   // Halves first: the sum of two large coordinates may overflow.
   frame.centre = low * 0.5 + high * 0.5;

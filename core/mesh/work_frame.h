@@ -1,6 +1,7 @@
 // The frame in which geometry is compared: the same for a mesh however it is scaled, and free of large offsets.
 #pragma once
 
+#include "base/passes.h"
 #include "base/vec3.h"
 #include "mesh/mesh.h"
 
@@ -17,7 +18,7 @@ struct WorkFrame {
 };
 
 /// The work frame of a mesh: its bounding box is that of the vertices which faces use. Scale 1 where they all coincide.
-/// Requires at least one face, indices < V and finite positions.
-WorkFrame workFrameOf(const Mesh& mesh);
+/// Requires at least one face, indices < V and finite positions. One pass.
+WorkFrame workFrameOf(const Mesh& mesh, Passes& passes);
 
 }  // namespace shbake

@@ -156,14 +156,14 @@ BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshO
   const std::size_t vertices = mesh.positions.size();
   LightingPoints points;
   if (blockers.empty()) {
-    points = makeLightingPoints(mesh, options.points, albedo.albedo);
+    points = makeLightingPoints(mesh, options.points, albedo.albedo, progress);
   } else {
     AlbedoOptions blockerOptions = options.albedo;
     blockerOptions.source = AlbedoSource::automatic;
     std::vector<Albedo> albedos;
     for (const Mesh& b : blockers) albedos.push_back(resolveAlbedo(b, blockerOptions).albedo);
     const Scene scene = joinScene(mesh, albedo.albedo, blockers, albedos);
-    points = makeLightingPoints(scene.mesh, options.points, scene.albedo);
+    points = makeLightingPoints(scene.mesh, options.points, scene.albedo, progress);
   }
 
   // The mesh's vertices in their order, then those that are split off; two copies of the faces are not needed.

@@ -17,7 +17,8 @@ LightingPoints pointsOf(const Mesh& mesh, Rgb albedo, const LightingPointOptions
     all.per = Albedo::Per::face;
     all.values = mesh.faceColors;
   }
-  return makeLightingPoints(mesh, options, all);
+  Progress progress;
+  return makeLightingPoints(mesh, options, all, progress);
 }
 
 Contacts contactsOf(const LightingPoints& points) {

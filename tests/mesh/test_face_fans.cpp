@@ -14,14 +14,27 @@ std::vector<Vec3f> floatPositions(const Mesh& mesh) {
   return std::vector<Vec3f>(mesh.positions.begin(), mesh.positions.end());
 }
 
+PackedLists cornersOf(const Mesh& mesh) {
+  Progress progress;
+  Passes passes(progress, "corners", mesh.triangles.size(), "faces", 4);
+  return cornersAtPositions(mesh.triangles, mesh.positions.size(), passes);
+}
+
 std::vector<std::uint32_t> oppositesOf(const Mesh& mesh) {
-  const PackedLists corners = cornersAtPositions(mesh.triangles, mesh.positions.size());
-  return oppositeHalfEdges(floatPositions(mesh), mesh.triangles, corners);
+  Progress progress;
+  Passes passes(progress, "opposites", mesh.triangles.size(), "faces", 1);
+  return oppositeHalfEdges(floatPositions(mesh), mesh.triangles, cornersOf(mesh), passes);
+}
+
+FaceFans fansOf(const Mesh& mesh) {
+  Progress progress;
+  Passes passes(progress, "fans", mesh.triangles.size(), "faces", 1);
+  return faceFans(mesh.triangles, oppositesOf(mesh), passes);
 }
 
 // The number of fans at each vertex of a mesh without coincident vertices.
 std::vector<int> fansPerVertex(const Mesh& mesh) {
-  const FaceFans fans = faceFans(mesh.triangles, oppositesOf(mesh));
+  const FaceFans fans = fansOf(mesh);
   std::vector<int> counts(mesh.positions.size());
   for (std::uint32_t p : fans.position) ++counts[p];
   return counts;
@@ -35,7 +48,7 @@ std::vector<int> repeated(std::size_t count, int value) {
 
 TEST_CASE("the corners at a position are all of them, in ascending order", "[face_fans]") {
   const Mesh mesh = shapes::degenerateFaces();
-  const PackedLists corners = cornersAtPositions(mesh.triangles, mesh.positions.size());
+  const PackedLists corners = cornersOf(mesh);
   REQUIRE(corners.size() == mesh.positions.size());
   std::size_t total = 0;
   for (std::size_t p = 0; p < corners.size(); ++p) {
@@ -84,7 +97,7 @@ TEST_CASE("degenerate faces belong to no fan, all other corners to one at their 
   for (const Mesh& mesh : shapes::defects()) {
     INFO(mesh.source);
     const std::vector<Triangle>& faces = mesh.triangles;
-    const FaceFans fans = faceFans(faces, oppositesOf(mesh));
+    const FaceFans fans = fansOf(mesh);
     for (std::uint32_t c = 0; c < fans.ofCorner.size(); ++c) {
       if (isDegenerate(faces[c / 3])) {
         CHECK(fans.ofCorner[c] == kNoCorner);

@@ -18,7 +18,8 @@ namespace {
 constexpr std::uint32_t kNone = LightingPoints::kNone;
 
 LightingPoints pointsOf(const Mesh& mesh, const LightingPointOptions& options = {}, const Albedo& albedo = {}) {
-  return makeLightingPoints(mesh, options, albedo);
+  Progress progress;
+  return makeLightingPoints(mesh, options, albedo, progress);
 }
 
 std::size_t countOf(const Mesh& mesh, const LightingPointOptions& options = {}) {
@@ -283,7 +284,8 @@ TEST_CASE("coordinates that need doubles are welded and told apart at an offset 
 TEST_CASE("errors name the file, the place and the cause", "[lighting_points]") {
   const auto kindOf = [](const Mesh& mesh, const LightingPointOptions& options, const Albedo& albedo) {
     try {
-      makeLightingPoints(mesh, options, albedo);
+      Progress progress;
+      makeLightingPoints(mesh, options, albedo, progress);
     } catch (const Error& error) {
       return std::pair(error.kind(), std::string(error.what()));
     }

@@ -12,7 +12,8 @@ using namespace shbake;
 namespace {
 
 LightingPoints pointsOf(const Mesh& mesh, const LightingPointOptions& options = {}) {
-  return makeLightingPoints(mesh, options, {});
+  Progress progress;
+  return makeLightingPoints(mesh, options, {}, progress);
 }
 
 Mesh withVertexNormals(Mesh mesh, Vec3f normal) {

@@ -220,7 +220,7 @@ TEST_CASE("real meshes have the counts that their manifest states") {
     checkValid(mesh);
     CHECK(mesh.positions.size() == e.vertices);
     CHECK(mesh.triangles.size() == e.triangles);
-    const MeshCheck check = checkMesh(mesh);
+    const MeshCheck check = checkMesh(mesh, progress);
     CHECK(check.boundaryEdges.count == e.boundary);
     CHECK(check.nonManifoldEdges.count == e.nonManifold);
   }

@@ -31,12 +31,15 @@ struct Normals {
 };
 
 Normals normalsOf(const Mesh& mesh, double creaseDegrees) {
-  const Weld weld = weldPositions(mesh, workFrameOf(mesh));
+  Progress progress;
+  Passes passes(progress, "weld", mesh.triangles.size(), "faces", 4);
+  const WorkFrame frame = workFrameOf(mesh, passes);
+  const Weld weld = weldPositions(mesh, frame, passes);
   Normals result{weld.positions, {}, {}};
   for (const Triangle& t : mesh.triangles) {
     result.faces.push_back({weld.ofVertex[t[0]], weld.ofVertex[t[1]], weld.ofVertex[t[2]]});
   }
-  result.smooth = smoothNormals(result.positions, result.faces, creaseDegrees * kDegree);
+  result.smooth = smoothNormals(result.positions, result.faces, creaseDegrees * kDegree, progress);
   return result;
 }
 

@@ -9,8 +9,16 @@ using namespace shbake;
 
 namespace {
 
+WorkFrame frameOf(const Mesh& mesh) {
+  Progress progress;
+  Passes passes(progress, "frame", mesh.triangles.size(), "faces", 1);
+  return workFrameOf(mesh, passes);
+}
+
 Weld weldOf(const Mesh& mesh) {
-  return weldPositions(mesh, workFrameOf(mesh));
+  Progress progress;
+  Passes passes(progress, "weld", mesh.triangles.size(), "faces", 3);
+  return weldPositions(mesh, frameOf(mesh), passes);
 }
 
 }  // namespace
@@ -18,8 +26,8 @@ Weld weldOf(const Mesh& mesh) {
 TEST_CASE("vertices share an id exactly where their work positions agree", "[weld]") {
   for (const Mesh& mesh : {shapes::cubeSplit(), shapes::city(2, 1, 2), shapes::redFloorWhiteWall(4)}) {
     INFO(mesh.source);
-    const WorkFrame frame = workFrameOf(mesh);
-    const Weld weld = weldPositions(mesh, frame);
+    const WorkFrame frame = frameOf(mesh);
+    const Weld weld = weldOf(mesh);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
       REQUIRE(weld.ofVertex[v] < weld.positions.size());
       CHECK(weld.positions[weld.ofVertex[v]] == frame.toWork(mesh.positions[v]));

@@ -16,12 +16,18 @@ Mesh segment(Vec3d from, Vec3d to) {
   return mesh;
 }
 
+WorkFrame frameOf(const Mesh& mesh) {
+  Progress progress;
+  Passes passes(progress, "frame", mesh.triangles.size(), "faces", 1);
+  return workFrameOf(mesh, passes);
+}
+
 }  // namespace
 
 TEST_CASE("the scale is a power of two that brings the largest half-extent into (0.5, 1]", "[work_frame]") {
   for (double extent : {1e-300, 1e-6, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 1024.0, 1e6, 1e300}) {
     INFO(extent);
-    const WorkFrame frame = workFrameOf(segment({-extent, 0, 0}, {extent, extent / 8, 0}));
+    const WorkFrame frame = frameOf(segment({-extent, 0, 0}, {extent, extent / 8, 0}));
     int exponent = 0;
     CHECK(std::frexp(frame.scale, &exponent) == 0.5);
     CHECK(extent * frame.scale > 0.5);
@@ -30,17 +36,17 @@ TEST_CASE("the scale is a power of two that brings the largest half-extent into 
 }
 
 TEST_CASE("the frame looks only at vertices that faces use", "[work_frame]") {
-  const WorkFrame frame = workFrameOf(shapes::isolatedVertices());
+  const WorkFrame frame = frameOf(shapes::isolatedVertices());
   CHECK(frame.centre == Vec3d(0.5, 0.5, 0));
   CHECK(frame.scale == 2);
   CHECK(frame.toWork({1, 0, 0}) == Vec3f(1, -1, 0));
 }
 
 TEST_CASE("a mesh without extent, and ones at the ends of the doubles' range, have a finite frame", "[work_frame]") {
-  CHECK(workFrameOf(segment({3, 4, 5}, {3, 4, 5})).scale == 1);
+  CHECK(frameOf(segment({3, 4, 5}, {3, 4, 5})).scale == 1);
   for (double extent : {1e-320, 1.7e308}) {
     INFO(extent);
-    const WorkFrame frame = workFrameOf(segment({-extent, 0, 0}, {extent, 0, 0}));
+    const WorkFrame frame = frameOf(segment({-extent, 0, 0}, {extent, 0, 0}));
     CHECK(std::isfinite(frame.scale));
     CHECK(frame.scale > 0);
     CHECK(frame.toWork({extent, 0, 0}).x > 0);
@@ -49,14 +55,14 @@ TEST_CASE("a mesh without extent, and ones at the ends of the doubles' range, ha
 }
 
 TEST_CASE("floats around an exact centre keep their bits up to the scale", "[work_frame]") {
-  const WorkFrame frame = workFrameOf(segment({-3, -3, -3}, {3, 3, 3}));
+  const WorkFrame frame = frameOf(segment({-3, -3, -3}, {3, 3, 3}));
   CHECK(frame.scale == 0.25);
   const float third = 1.0f / 3;
   CHECK(frame.toWork(Vec3d(third, -third, 3)) == Vec3f(third / 4, -third / 4, 0.75f));
 }
 
 TEST_CASE("work coordinates hold no negative zero", "[work_frame]") {
-  const WorkFrame frame = workFrameOf(segment({-1, -1, -1}, {1, 1, 1}));
+  const WorkFrame frame = frameOf(segment({-1, -1, -1}, {1, 1, 1}));
   const Vec3f zero = frame.toWork({-0.0, -1e-320, 0.0});
   for (float component : {zero.x, zero.y, zero.z}) CHECK_FALSE(std::signbit(component));
 }

@@ -13,7 +13,8 @@ using namespace shbake;
 namespace {
 
 LightingPoints pointsOf(const Mesh& mesh, double creaseDegrees = 60) {
-  return makeLightingPoints(mesh, {.creaseDegrees = creaseDegrees}, {});
+  Progress progress;
+  return makeLightingPoints(mesh, {.creaseDegrees = creaseDegrees}, {}, progress);
 }
 
 // Directions spread over the sphere, different for each seed.
