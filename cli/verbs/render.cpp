@@ -24,6 +24,9 @@ namespace fs = std::filesystem;
 enum class BackgroundKind { gradient, light, plain };
 enum class Turning { camera, light };
 
+/// Room on each side of a picture for the ground around the mesh, as a share of it.
+constexpr double kGroundMargin = 0.15;
+
 /// A mesh to be drawn and the light for its bands.
 struct LitScene {
   BakedScene scene;
@@ -176,6 +179,7 @@ std::vector<Picture> Render::drawPanels(const std::vector<LitScene>& scenes, dou
   CameraOptions options = camera_;
   options.up = light_.up;
   options.aspect = static_cast<double>(render_.width) / render_.height;
+  if (ground_) options.margin = kGroundMargin;
   if (turning_ == Turning::camera) options.view.azimuth += turn;
   std::vector<Vec3d> points;
   for (const LitScene& s : scenes) {
