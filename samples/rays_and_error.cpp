@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
       const shbake::BakedMesh baked = bake(mesh, rays, 1);
       const shbake::BakedPly a{baked.mesh, baked.transfer, baked.facts, true, {}, {}};
       const shbake::BakedPly b{reference.mesh, reference.transfer, reference.facts, true, {}, {}};
-      const double error = shbake::compareTransfer(a, b).rmsError;
+      const double error = shbake::compareTransfer(a, b, progress).rmsError;
       std::printf("%6d %8.2f %% %8.2f %%\n", rays, 100 * baked.facts.rmsError, 100 * error);
       agree &= std::abs(std::log(baked.facts.rmsError / error)) < std::log(1.5);
     }

@@ -67,7 +67,7 @@ class Compare : public Verb {
 void Compare::run(Session& session) {
   if (b_.empty()) throw usageError("two files are needed", "usage: shbake compare A B");
   const BakedPly a = readBakedPly(a_, session.progress), b = readBakedPly(b_, session.progress);
-  const TransferComparison comparison = compareTransfer(a, b);
+  const TransferComparison comparison = compareTransfer(a, b, session.progress);
   session.report.data("a", a_);
   session.report.data("b", b_);
   reportMatches(comparison, session.report);

@@ -11,6 +11,7 @@
 #include "bake/reflections.h"
 #include "bake/stated_error.h"
 #include "base/memory.h"
+#include "base/passes.h"
 #include "sh/basis.h"
 #include "sh/irradiance.h"
 
@@ -72,6 +73,7 @@ class Baker {
 
   void bakeUnshadowed() {
     allocate();
+    progress_.begin("evaluating", static_cast<double>(points_.size()), "points");
     parallel_.forBlocks(points_.size(), 1024, [&](std::size_t begin, std::size_t end, int) {
       std::vector<double> exact(count());
       std::vector<float> direct(count());
@@ -80,7 +82,9 @@ class Baker {
         std::copy(exact.begin(), exact.end(), direct.begin());
         store(p, direct);
       }
+      progress_.advance(static_cast<double>(end - begin));
     });
+    progress_.end();
   }
 
   void bakeTraced() {
@@ -102,7 +106,7 @@ class Baker {
     } else {
       traceSky(scene, directions);
     }
-    result_.transfer.error = statedErrors(points_, pairs_, roughness_, result_.rays, options_.order);
+    result_.transfer.error = statedErrors(points_, pairs_, roughness_, result_.rays, options_.order, progress_);
   }
 
   /// What one worker needs to turn a point's sky masks into its transfer.
@@ -176,9 +180,9 @@ class Baker {
     const std::size_t real = std::min(kColumns, count()), stride = result_.transfer.stride();
     const std::size_t offset = result_.transfer.channels == 3 ? count() : 0;
     std::vector<float> firstBands(points_.size() * kColumns);
-    for (std::size_t p = 0; p < points_.size(); ++p) {
+    forEachCounted(progress_, points_.size(), 0, [&](std::size_t p) {
       std::copy_n(&result_.transfer.coefficients[p * stride + offset], real, &firstBands[p * kColumns]);
-    }
+    });
     roughness_.resize(points_.size());
     reflections.roughness(firstBands.data(), roughness_.data(), kColumns, progress_);
   }
@@ -201,14 +205,16 @@ class Baker {
           const float* direct = &coefficients[p * stride + offset];
           for (std::size_t k = 0; k < real; ++k) row[k] = direct[k] + rho * row[k];
         }
+        progress_.advance(0);
       });
       progress_.advance(1);
     };
     std::vector<float> x(n * columns);
-    for (std::size_t p = 0; p < n; ++p) std::copy_n(&coefficients[p * stride + offset], real, &x[p * columns]);
+    forEachCounted(progress_, n, 0,
+                   [&](std::size_t p) { std::copy_n(&coefficients[p * stride + offset], real, &x[p * columns]); });
     if (options_.bounces == BakeOptions::kBouncesAuto) {
       const FixedPointOptions solver{kSolverShare * options_.tolerance * columnScale(channel), kMaxSolverSteps};
-      const FixedPointResult solved = solveFixedPoint(n, columns, x, map, solver, parallel_);
+      const FixedPointResult solved = solveFixedPoint(n, columns, x, map, solver, parallel_, progress_);
       result_.bounces = std::max(result_.bounces, solved.steps);
       result_.converged &= solved.converged;
     } else {
@@ -219,7 +225,8 @@ class Baker {
       }
       result_.bounces = options_.bounces;
     }
-    for (std::size_t p = 0; p < n; ++p) std::copy_n(&x[p * columns], real, &coefficients[p * stride + offset]);
+    forEachCounted(progress_, n, 0,
+                   [&](std::size_t p) { std::copy_n(&x[p * columns], real, &coefficients[p * stride + offset]); });
   }
 
   /// The norm over all points that a column of unshadowed transfer has on average.

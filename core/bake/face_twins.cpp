@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/passes.h"
+
 namespace shbake {
 namespace {
 
@@ -16,9 +18,10 @@ bool areOpposite(const Triangle& a, const Triangle& b) {
 
 }  // namespace
 
-std::vector<std::uint32_t> faceTwins(const LightingPoints& points) {
+std::vector<std::uint32_t> faceTwins(const LightingPoints& points, Progress& progress) {
   std::vector<std::uint32_t> twins;
-  for (std::uint32_t f = 0; f < points.faces.size(); ++f) {
+  Passes passes(progress, "twin faces", points.faces.size(), "faces", 1);
+  passes.forEach<std::uint32_t>(points.faces.size(), [&](std::uint32_t f) {
     // Whoever has all corners is among the faces at the one with the fewest: that keeps wide fans from taking quadratic
     // time.
     const Triangle& t = points.faces[f];
@@ -31,7 +34,8 @@ std::vector<std::uint32_t> faceTwins(const LightingPoints& points) {
       twins[f] = other;
       break;
     }
-  }
+  });
+  passes.end();
   return twins;
 }
 

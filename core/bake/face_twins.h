@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/progress.h"
 #include "mesh/lighting_points.h"
 
 namespace shbake {
@@ -12,6 +13,7 @@ namespace shbake {
 /// random; the one that it should see is the one whose front it comes from.
 ///
 /// For each face, one with the same corners wound the other way, or LightingPoints::kNone; empty when no face has one.
-std::vector<std::uint32_t> faceTwins(const LightingPoints& points);
+/// Progress counts faces.
+std::vector<std::uint32_t> faceTwins(const LightingPoints& points, Progress& progress);
 
 }  // namespace shbake

@@ -32,10 +32,11 @@ struct Products {
 
 class Solver {
  public:
-  Solver(std::size_t rows, std::size_t columns, const Parallel& parallel)
+  Solver(std::size_t rows, std::size_t columns, const Parallel& parallel, Progress& progress)
       : rows_(rows),
         columns_(columns),
         parallel_(parallel),
+        progress_(progress),
         products_(columns),
         slowness_(columns, 1.0),
         settled_(columns, 0),
@@ -85,6 +86,7 @@ class Solver {
           next[r * columns_ + k] = static_cast<float>(value);
         }
       }
+      progress_.advance(0);
     });
   }
 
@@ -129,6 +131,7 @@ class Solver {
         const double dx = n > 0 ? static_cast<double>(window_[n].x[e]) - static_cast<double>(window_[n - 1].x[e]) : 0;
         s[kWindow] += dx * dx;
       }
+      progress_.advance(0);
     });
     for (std::size_t k = 0; k < columns_; ++k) {
       Products& p = products_[k];
@@ -166,6 +169,7 @@ class Solver {
 
   std::size_t rows_, columns_;
   const Parallel& parallel_;
+  Progress& progress_;
   std::vector<Iterate> window_;
   std::vector<Products> products_;
   std::vector<double> slowness_;
@@ -177,8 +181,8 @@ class Solver {
 
 FixedPointResult solveFixedPoint(std::size_t rows, std::size_t columns, std::vector<float>& x,
                                  const std::function<void(const float* in, float* out)>& map,
-                                 const FixedPointOptions& options, const Parallel& parallel) {
-  Solver solver(rows, columns, parallel);
+                                 const FixedPointOptions& options, const Parallel& parallel, Progress& progress) {
+  Solver solver(rows, columns, parallel, progress);
   FixedPointResult result;
   while (true) {
     Iterate iterate{std::move(x), std::vector<float>(rows * columns)};

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/progress.h"
 
 namespace shbake {
 
@@ -26,6 +27,7 @@ struct FixedPointResult {
 /// Evaluations of g whose points are remembered: memory is 2 * kFixedPointWindow arrays.
 inline constexpr int kFixedPointWindow = 3;
 
+/// `progress` only cancels: it counts nothing.
 /// Solves for `rows` x `columns` floats, row by row, from the start in `x`, which holds the result afterwards.
 /// map(in, out) evaluates g. Columns are independent problems: each has its own coefficients, so that its result does
 /// not depend on which others are solved beside it. The error of a column is estimated as its residual times the
@@ -33,6 +35,6 @@ inline constexpr int kFixedPointWindow = 3;
 /// sharp.
 FixedPointResult solveFixedPoint(std::size_t rows, std::size_t columns, std::vector<float>& x,
                                  const std::function<void(const float* in, float* out)>& map,
-                                 const FixedPointOptions& options, const Parallel& parallel);
+                                 const FixedPointOptions& options, const Parallel& parallel, Progress& progress);
 
 }  // namespace shbake

@@ -153,7 +153,7 @@ RayScene::RayScene(const LightingPoints& points, float maxDistance, const Parall
   s.filter = {points.faces.data(), s.positions.data(), contact, kSuspect * contact,
               kProductRounding * std::pow(static_cast<double>(longestEdge(points)), 3)};
 
-  s.twins = faceTwins(points);
+  s.twins = faceTwins(points, progress);
 
   const FlushDenormals flush;
   s.device = rtcNewDevice(nullptr);

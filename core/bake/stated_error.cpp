@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/passes.h"
 #include "sh/irradiance.h"
 
 namespace shbake {
@@ -40,21 +41,24 @@ std::uint32_t boundaryPairs(std::span<const std::uint16_t> sky) {
 }
 
 std::vector<float> statedErrors(const LightingPoints& points, std::span<const std::uint32_t> pairs,
-                                std::span<const float> roughness, int rays, int order) {
+                                std::span<const float> roughness, int rays, int order, Progress& progress) {
+  Passes passes(progress, "stating errors", points.size(), "points", 2);
   std::vector<std::uint8_t> fringe(points.size(), 0);
-  for (const Triangle& t : points.facePoints) {
-    if (pairs[t[0]] == 0 && pairs[t[1]] == 0 && pairs[t[2]] == 0) continue;
+  passes.forEach(points.facePoints.size(), [&](std::size_t f) {
+    const Triangle& t = points.facePoints[f];
+    if (pairs[t[0]] == 0 && pairs[t[1]] == 0 && pairs[t[2]] == 0) return;
     for (const std::uint32_t p : t) fringe[p] = 1;
-  }
+  });
   const bool anyBoundary = std::find(fringe.begin(), fringe.end(), 1) != fringe.end();
   const double inner = anyBoundary ? kInner : 0;
   const double cell = cellError(rays, order);
   std::vector<float> errors(points.size());
-  for (std::size_t p = 0; p < points.size(); ++p) {
+  passes.forEach(points.size(), [&](std::size_t p) {
     double v = pairs[p] > 0 ? variance(pairs[p]) : fringe[p] != 0 ? kFringe : inner;
     if (!roughness.empty()) v += kPerStep * static_cast<double>(roughness[p]) * 4 * std::numbers::pi / (order * order);
     errors[p] = static_cast<float>(cell * std::sqrt(v));
-  }
+  });
+  passes.end();
   return errors;
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/passes.h"
 #include "mesh/ply_body.h"
 #include "mesh/ply_columns.h"
 #include "mesh/polygon_triangulation.h"
@@ -26,7 +27,7 @@ constexpr std::uint64_t kMostItems = std::numeric_limits<std::uint32_t>::max() -
 class MeshBuilder {
  public:
   MeshBuilder(PlyInput& input, PlyHeader header, Progress& progress)
-      : input_(input), header_(std::move(header)), body_(input, header_, progress) {
+      : input_(input), header_(std::move(header)), progress_(progress), body_(input, header_, progress) {
     checkVertices();
     chooseFaces();
   }
@@ -113,13 +114,13 @@ class MeshBuilder {
   /// Moves one coordinate from its column, which is freed, to the positions.
   void readCoordinate(std::vector<Property>& columns, const char* name, double Vec3d::*member) {
     const Property column = *takeColumn(columns, name);
-    for (std::size_t v = 0; v < mesh_.positions.size(); ++v) mesh_.positions[v].*member = scalarAt(column, v);
-    for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
+    forEachCounted(progress_, mesh_.positions.size(), 0, [&](std::size_t v) {
+      mesh_.positions[v].*member = scalarAt(column, v);
       if (!std::isfinite(mesh_.positions[v].*member)) {
         fail(plyItemName(*vertices_, v), std::string("its ") + name + " is not a finite number",
              "correct the vertex or remove it");
       }
-    }
+    });
   }
 
   std::uint32_t checkedIndex(std::uint64_t item, std::int64_t index) const {
@@ -193,6 +194,7 @@ class MeshBuilder {
     std::vector<Vec3d> outline;
     std::vector<Triangle> cut;
     for (std::size_t first = 0, end; first < polygonOf_.size(); first = end) {
+      progress_.advance(0);
       end = first + 1;
       while (end < polygonOf_.size() && polygonOf_[end] == polygonOf_[first]) ++end;
       if (end == first + 1) continue;
@@ -238,6 +240,7 @@ class MeshBuilder {
 
   PlyInput& input_;
   PlyHeader header_;
+  Progress& progress_;
   PlyBody body_;
   const PlyElement* vertices_ = nullptr;
   const PlyElement* faces_ = nullptr;  // faces or tristrips, or null in a cloud of points

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/passes.h"
 #include "mesh/ply_columns.h"
 #include "mesh/ply_reader.h"
 #include "mesh/ply_writer.h"
@@ -26,36 +27,42 @@ void requireItems(std::size_t items, std::size_t vertices, const char* what) {
                    " vertices");
 }
 
-void requireFinite(const std::vector<float>& values, std::size_t perVertex, const char* what) {
-  const auto bad = std::ranges::find_if_not(values, [](float v) { return std::isfinite(v); });
-  if (bad == values.end()) return;
-  const auto vertex = static_cast<std::size_t>(bad - values.begin()) / perVertex;
-  throw usageError(std::string("the ") + what + " of vertex " + std::to_string(vertex) + " is not finite");
+void requireFinite(const std::vector<float>& values, std::size_t perVertex, const char* what, Passes& passes) {
+  passes.forEach(values.size(), [&](std::size_t i) {
+    if (std::isfinite(values[i])) return;
+    throw usageError(std::string("the ") + what + " of vertex " + std::to_string(i / perVertex) + " is not finite");
+  });
 }
 
 bool isShare(float value) {
   return value >= 0 && value <= 1;
 }
 
-void requireWritable(const Mesh& mesh, const TransferSet& transfer, std::span<const std::uint32_t> sourceVertex) {
+void requireWritable(const Mesh& mesh, const TransferSet& transfer, std::span<const std::uint32_t> sourceVertex,
+                     Progress& progress) {
   const std::size_t vertices = mesh.positions.size();
   if (transfer.order < 1 || (transfer.channels != 1 && transfer.channels != 3)) {
     throw usageError("a transfer has an order of 1 or more and 1 or 3 channels");
   }
   requireItems(mesh.vertexNormals.size(), vertices, "normals");
   requireItems(transfer.coefficients.size(), vertices * transfer.stride(), "coefficients");
-  requireFinite(transfer.coefficients, transfer.stride(), "transfer");
+  // Coefficients, errors, visibilities, their range, source vertices.
+  Passes passes(progress, "checking results", vertices, "vertices", 5);
+  requireFinite(transfer.coefficients, transfer.stride(), "transfer", passes);
   for (const auto& [values, what] : {std::pair(&transfer.error, "error"), {&transfer.visibility, "visibility"}}) {
     if (values->empty()) continue;
     requireItems(values->size(), vertices, what);
-    requireFinite(*values, 1, what);
+    requireFinite(*values, 1, what, passes);
   }
-  if (!std::ranges::all_of(transfer.visibility, isShare)) throw usageError("a visibility is outside 0..1");
-  if (sourceVertex.empty()) return;
-  requireItems(sourceVertex.size(), vertices, "source vertices");
-  if (std::ranges::max(sourceVertex) > std::numeric_limits<std::int32_t>::max()) {
-    throw usageError("a source vertex is beyond the range of int");
-  }
+  passes.forEach(transfer.visibility.size(), [&](std::size_t v) {
+    if (!isShare(transfer.visibility[v])) throw usageError("a visibility is outside 0..1");
+  });
+  if (!sourceVertex.empty()) requireItems(sourceVertex.size(), vertices, "source vertices");
+  passes.forEach(sourceVertex.size(), [&](std::size_t v) {
+    constexpr std::uint32_t kLargest = std::numeric_limits<std::int32_t>::max();
+    if (sourceVertex[v] > kLargest) throw usageError("a source vertex is beyond the range of int");
+  });
+  passes.end();
 }
 
 void addTransferColumns(PlyElementView& vertices, const TransferSet& transfer,
@@ -88,14 +95,20 @@ std::vector<PlyProperty> declarations(const std::vector<Property>& columns) {
 /// Moves what belongs to the transfer from a mesh to a transfer set.
 class TransferReader {
  public:
-  TransferReader(BakedPly& baked, const StatedFacts& stated)
-      : baked_(baked), stated_(stated), file_(baked.mesh.source), vertices_(baked.mesh.positions.size()) {}
+  TransferReader(BakedPly& baked, const StatedFacts& stated, Progress& progress)
+      : baked_(baked),
+        stated_(stated),
+        file_(baked.mesh.source),
+        vertices_(baked.mesh.positions.size()),
+        progress_(progress) {}
 
   void read() {
+    progress_.begin("unpacking", static_cast<double>(vertices_), "vertices");
     takeCoefficients();
     takeErrors();
     takeVisibility();
     takeSourceVertices();
+    progress_.end();
   }
 
  private:
@@ -126,11 +139,12 @@ class TransferReader {
     const int index = static_cast<int>(place % static_cast<std::size_t>(baked_.transfer.coefficientsPerChannel()));
     const bool negate = stated_.condonShortley && sh::orderOf(index) % 2 != 0;
     float* const to = baked_.transfer.coefficients.data() + place;
-    for (std::size_t v = 0; v < vertices_; ++v) {
+    const double share = static_cast<double>(vertices_) / static_cast<double>(stride);
+    forEachCounted(progress_, vertices_, share, [&](std::size_t v) {
       const auto value = static_cast<float>(scalarAt(column, v));
       if (!std::isfinite(value)) failValue(column.name, v, "is not finite");
       to[v * stride] = negate ? -value : value;
-    }
+    });
   }
 
   [[noreturn]] void failValue(const std::string& name, std::size_t vertex, const std::string& what) const {
@@ -153,11 +167,11 @@ class TransferReader {
     const auto column = takeFloats("sh_error");
     if (!column) return;
     baked_.transfer.error.resize(vertices_);
-    for (std::size_t v = 0; v < vertices_; ++v) {
+    forEachCounted(progress_, vertices_, 0, [&](std::size_t v) {
       const auto value = static_cast<float>(scalarAt(*column, v));
       if (!(value >= 0 && std::isfinite(value))) failValue("sh_error", v, "is not a finite number of 0 or more");
       baked_.transfer.error[v] = value;
-    }
+    });
   }
 
   void takeVisibility() {
@@ -165,7 +179,8 @@ class TransferReader {
     auto column = takeFloats("quality");
     if (!column) return;
     std::vector<float> values(vertices_);
-    for (std::size_t v = 0; v < vertices_; ++v) values[v] = static_cast<float>(scalarAt(*column, v));
+    forEachCounted(progress_, vertices_, 0,
+                   [&](std::size_t v) { values[v] = static_cast<float>(scalarAt(*column, v)); });
     if (std::ranges::all_of(values, isShare)) {
       baked_.transfer.visibility = std::move(values);
       return;
@@ -187,7 +202,7 @@ class TransferReader {
     const std::size_t stated = baked_.facts.sourceVertices;
     const double limit = stated > 0 ? static_cast<double>(stated) : 0x1p32;
     baked_.sourceVertex.resize(vertices_);
-    for (std::size_t v = 0; v < vertices_; ++v) {
+    forEachCounted(progress_, vertices_, 0, [&](std::size_t v) {
       const double value = scalarAt(column, v);
       if (value < 0 || value >= limit) {
         fail(file_, "vertex " + std::to_string(v),
@@ -196,13 +211,14 @@ class TransferReader {
              "correct the comment, or bake the mesh anew");
       }
       baked_.sourceVertex[v] = static_cast<std::uint32_t>(value);
-    }
+    });
   }
 
   BakedPly& baked_;
   const StatedFacts& stated_;
   const std::string& file_;
   std::size_t vertices_;
+  Progress& progress_;
 };
 
 void noteConversion(bool condonShortley, std::vector<std::string>& notes) {
@@ -216,7 +232,7 @@ void noteConversion(bool condonShortley, std::vector<std::string>& notes) {
 
 void writeBakedPly(const std::string& path, const Mesh& mesh, const TransferSet& transfer, const TransferFacts& facts,
                    std::span<const std::uint32_t> sourceVertex, const BakedPlyOptions& options, Progress& progress) {
-  requireWritable(mesh, transfer, sourceVertex);
+  requireWritable(mesh, transfer, sourceVertex, progress);
   PlyMeshView view = viewMesh(mesh);
   PlyElementView& vertices = view.elements[0];
   std::erase_if(vertices.columns, [](const PlyColumnView& c) { return isTransferColumn(c.property.name); });
@@ -236,7 +252,7 @@ BakedPly readBakedPly(const std::string& path, Progress& progress) {
   baked.stated = stated.any;
   baked.notes = stated.notes;
   noteConversion(stated.condonShortley, baked.notes);
-  TransferReader(baked, stated).read();
+  TransferReader(baked, stated, progress).read();
   std::erase_if(baked.mesh.comments, isFactComment);
   return baked;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/passes.h"
 #include "sh/irradiance.h"
 #include "transfer/baked_albedo.h"
 #include "transfer/point_matcher.h"
@@ -18,19 +19,20 @@ namespace {
 constexpr double kRounding = 1e-6;
 
 /// The area that each vertex stands for, a third of each of its faces; equal weights where faces have no area.
-/// Vertices of no face get a negative weight.
-std::vector<double> areaWeights(const Mesh& mesh) {
+/// Vertices of no face get a negative weight. Two passes.
+std::vector<double> areaWeights(const Mesh& mesh, Passes& passes) {
   if (mesh.triangles.empty()) return std::vector<double>(mesh.positions.size(), 1.0);
   std::vector<double> weights(mesh.positions.size(), -1);
   double total = 0;
-  for (const auto& [a, b, c] : mesh.triangles) {
+  passes.forEach(mesh.triangles.size(), [&](std::size_t f) {
+    const auto& [a, b, c] = mesh.triangles[f];
     const Vec3d& p = mesh.positions[a];
     const double area = length(cross(mesh.positions[b] - p, mesh.positions[c] - p)) / 2;
     for (const std::uint32_t v : {a, b, c}) weights[v] = std::max(weights[v], 0.0) + area / 3;
     total += area;
-  }
-  if (total > 0) return weights;
-  for (double& w : weights) w = w < 0 ? w : 1;
+  });
+  const bool equal = !(total > 0);
+  passes.forEach(weights.size(), [&](std::size_t v) { weights[v] = equal && weights[v] >= 0 ? 1 : weights[v]; });
   return weights;
 }
 
@@ -39,13 +41,14 @@ std::vector<double> areaWeights(const Mesh& mesh) {
       {.file = file.mesh.source, .place = std::move(place), .cause = std::move(cause), .remedy = std::move(remedy)});
 }
 
-std::optional<double> statedRms(const BakedPly& baked, const std::vector<double>& weights) {
+/// One pass.
+std::optional<double> statedRms(const BakedPly& baked, const std::vector<double>& weights, Passes& passes) {
   double sum = 0, total = 0;
-  for (std::size_t v = 0; v < baked.transfer.error.size(); ++v) {
-    if (weights[v] <= 0) continue;
+  passes.forEach(baked.transfer.error.size(), [&](std::size_t v) {
+    if (weights[v] <= 0) return;
     sum += weights[v] * baked.transfer.error[v] * baked.transfer.error[v];
     total += weights[v];
-  }
+  });
   if (total > 0) return std::sqrt(sum / total);
   if (baked.stated) return baked.facts.rmsError;
   return {};
@@ -53,23 +56,31 @@ std::optional<double> statedRms(const BakedPly& baked, const std::vector<double>
 
 class Comparer {
  public:
-  Comparer(const BakedPly& a, const BakedPly& b)
-      : a_(a), b_(b), weightsA_(areaWeights(a.mesh)), weightsB_(areaWeights(b.mesh)) {}
+  Comparer(const BakedPly& a, const BakedPly& b, Progress& progress)
+      : a_(a),
+        b_(b),
+        passes_(progress, "comparing", a.mesh.positions.size() + b.mesh.positions.size(), "vertices", kPasses),
+        weightsA_(areaWeights(a.mesh, passes_)),
+        weightsB_(areaWeights(b.mesh, passes_)) {}
 
   TransferComparison compare() {
     requireComparable();
     result_.order = std::min(a_.transfer.order, b_.transfer.order);
     result_.channels = std::max(a_.transfer.channels, b_.transfer.channels);
-    result_.statedRmsA = statedRms(a_, weightsA_);
-    result_.statedRmsB = statedRms(b_, weightsB_);
+    result_.statedRmsA = statedRms(a_, weightsA_, passes_);
+    result_.statedRmsB = statedRms(b_, weightsB_, passes_);
     noteTerms();
     matchPoints();
     chooseAlbedo();
     measure();
+    passes_.end();
     return std::move(result_);
   }
 
  private:
+  // Weights 4, stated errors 2, points 4, partners 2, differences 1.
+  static constexpr int kPasses = 13;
+
   void requireComparable() const {
     for (const BakedPly* file : {&a_, &b_}) {
       if (file->mesh.vertexNormals.size() != file->mesh.positions.size()) {
@@ -99,19 +110,19 @@ class Comparer {
   }
 
   void matchPoints() {
-    const PointMatcher inB(b_.mesh.positions, b_.mesh.vertexNormals);
-    const PointMatcher inA(a_.mesh.positions, a_.mesh.vertexNormals);
+    const PointMatcher inB(b_.mesh.positions, b_.mesh.vertexNormals, passes_);
+    const PointMatcher inA(a_.mesh.positions, a_.mesh.vertexNormals, passes_);
     result_.matchDistance = inB.distance();
     partner_.resize(a_.mesh.positions.size());
-    for (std::uint32_t v = 0; v < partner_.size(); ++v) {
-      if (weightsA_[v] < 0) continue;
+    passes_.forEach<std::uint32_t>(partner_.size(), [&](std::uint32_t v) {
+      if (weightsA_[v] < 0) return;
       partner_[v] = inB.find(a_.mesh.positions[v], a_.mesh.vertexNormals[v], v);
       result_.unmatchedA += partner_[v] ? 0 : 1;
-    }
-    for (std::uint32_t v = 0; v < b_.mesh.positions.size(); ++v) {
-      if (weightsB_[v] < 0) continue;
+    });
+    passes_.forEach<std::uint32_t>(b_.mesh.positions.size(), [&](std::uint32_t v) {
+      if (weightsB_[v] < 0) return;
       result_.unmatchedB += inA.find(b_.mesh.positions[v], b_.mesh.vertexNormals[v], v) ? 0 : 1;
-    }
+    });
     if (std::ranges::none_of(partner_, [](const auto& p) { return p.has_value(); })) {
       fail(a_, "", "none of its lighting points lies on one of " + b_.mesh.source,
            "compare bakes of the same mesh with the same normals");
@@ -178,12 +189,12 @@ class Comparer {
     double sum = 0, total = 0, plainSum = 0;
     std::size_t beyond = 0;
     result_.worstError = -1;
-    for (std::uint32_t v = 0; v < partner_.size(); ++v) {
-      if (!partner_[v]) continue;
+    passes_.forEach<std::uint32_t>(partner_.size(), [&](std::uint32_t v) {
+      if (!partner_[v]) return;
       const double whole = unshadowed(v);
       if (!(whole > 0)) {
         ++result_.black;
-        continue;
+        return;
       }
       const double error = difference(v) / whole;
       ++result_.matched;
@@ -197,7 +208,7 @@ class Comparer {
         result_.worstVertex = v;
         result_.worstPosition = a_.mesh.positions[v];
       }
-    }
+    });
     if (result_.matched == 0) {
       fail(b_, "", "its albedo is black wherever points match, so that no relative error exists",
            "compare lit surfaces");
@@ -212,6 +223,7 @@ class Comparer {
 
   const BakedPly& a_;
   const BakedPly& b_;
+  Passes passes_;
   std::vector<double> weightsA_, weightsB_;
   std::vector<std::optional<std::uint32_t>> partner_;  // in B of each vertex of A
   std::vector<Rgb> albedo_;
@@ -222,8 +234,8 @@ class Comparer {
 
 }  // namespace
 
-TransferComparison compareTransfer(const BakedPly& a, const BakedPly& b) {
-  return Comparer(a, b).compare();
+TransferComparison compareTransfer(const BakedPly& a, const BakedPly& b, Progress& progress) {
+  return Comparer(a, b, progress).compare();
 }
 
 }  // namespace shbake

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
 #include "base/vec3.h"
 #include "transfer/baked_ply.h"
 
@@ -45,7 +46,7 @@ struct TransferComparison {
 /// of B: what a white sky of radiance 1 makes the brightest point send out, which is the albedo where that point sees
 /// the whole sky, and less otherwise.
 /// Throws an Error that names the file: normals are missing, no vertex of A has a partner, only one of the two has its
-/// albedo multiplied in, or the albedo is black throughout.
-TransferComparison compareTransfer(const BakedPly& a, const BakedPly& b);
+/// albedo multiplied in, or the albedo is black throughout. Progress counts vertices.
+TransferComparison compareTransfer(const BakedPly& a, const BakedPly& b, Progress& progress);
 
 }  // namespace shbake

@@ -24,29 +24,31 @@ std::int64_t cellOf(double coordinate, double low, double cell) {
 
 }  // namespace
 
-PointMatcher::PointMatcher(const std::vector<Vec3d>& positions, const std::vector<Vec3f>& normals)
+PointMatcher::PointMatcher(const std::vector<Vec3d>& positions, const std::vector<Vec3f>& normals, Passes& passes)
     : positions_(positions), normals_(normals) {
   if (positions.empty()) return;
   low_ = high_ = positions[0];
   double largest = 0;
-  for (const Vec3d& p : positions) {
+  passes.forEach(positions.size(), [&](std::size_t i) {
+    const Vec3d& p = positions[i];
     low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
     high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y), std::max(high_.z, p.z)};
     largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
+  });
   constexpr double kFloatStep = std::numeric_limits<float>::epsilon();
   distance_ = std::max(kRelativeDistance * axisDistance(low_, high_), 4 * kFloatStep * largest);
   if (distance_ > 0) cell_ = 2 * distance_;
   mask_ = std::bit_ceil(positions.size()) - 1;
   heads_.assign(mask_ + 1, kNone);
   next_.resize(positions.size());
-  for (std::size_t i = positions.size(); i-- > 0;) {
+  passes.forEach(positions.size(), [&](std::size_t fromEnd) {
+    const std::size_t i = positions.size() - 1 - fromEnd;
     const Vec3d& p = positions[i];
     std::uint32_t& head =
         heads_[bucket(cellOf(p.x, low_.x, cell_), cellOf(p.y, low_.y, cell_), cellOf(p.z, low_.z, cell_))];
     next_[i] = head;
     head = static_cast<std::uint32_t>(i);
-  }
+  });
 }
 
 std::uint64_t PointMatcher::bucket(std::int64_t x, std::int64_t y, std::int64_t z) const {

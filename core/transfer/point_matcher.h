@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/passes.h"
 #include "base/vec3.h"
 
 namespace shbake {
@@ -20,8 +21,8 @@ class PointMatcher {
   static constexpr double kAngle = 1e-4;
 
   /// `normals` has one unit normal for each of `positions`. Far from the origin, where floats are coarser than
-  /// kRelativeDistance, positions match within four units in the last place of the largest coordinate.
-  PointMatcher(const std::vector<Vec3d>& positions, const std::vector<Vec3f>& normals);
+  /// kRelativeDistance, positions match within four units in the last place of the largest coordinate. Two passes.
+  PointMatcher(const std::vector<Vec3d>& positions, const std::vector<Vec3f>& normals, Passes& passes);
 
   /// The nearest point that matches; of equally near ones that whose normal is nearest, then number `preferred`, then
   /// the lowest number. Nothing when none matches.

@@ -9,7 +9,8 @@ using namespace shbake::testing;
 
 TEST_CASE("the two sides of a doubled sheet are twins of each other", "[face_twins]") {
   const LightingPoints points = pointsOf(shapes::doubledSheet(3), {1, 1, 1}, {.normals = NormalSource::flat});
-  const std::vector<std::uint32_t> twins = faceTwins(points);
+  Progress progress;
+  const std::vector<std::uint32_t> twins = faceTwins(points, progress);
   REQUIRE(twins.size() == points.faces.size());
   for (std::uint32_t f = 0; f < twins.size(); ++f) {
     REQUIRE(twins[f] < twins.size());
@@ -22,6 +23,7 @@ TEST_CASE("neighbours, plain duplicates and degenerate faces are no twins", "[fa
   for (const Mesh& mesh :
        {shapes::cube(), shapes::duplicateFaces(), shapes::degenerateFaces(), shapes::bicone(500, 1)}) {
     INFO(mesh.source);
-    CHECK(faceTwins(pointsOf(mesh, {1, 1, 1}, {.normals = NormalSource::flat})).empty());
+    Progress progress;
+    CHECK(faceTwins(pointsOf(mesh, {1, 1, 1}, {.normals = NormalSource::flat}), progress).empty());
   }
 }

@@ -64,7 +64,8 @@ Solved solve(const Problem& p, const std::vector<int>& columns, const FixedPoint
       }
     }
   };
-  s.result = solveFixedPoint(rows, n, s.x, map, options, parallel);
+  Progress progress;
+  s.result = solveFixedPoint(rows, n, s.x, map, options, parallel, progress);
   return s;
 }
 
@@ -148,7 +149,8 @@ TEST_CASE("maps without a fixed point are reported as not converged", "[fixed_po
   const auto shift = [](const float* in, float* out) {
     for (int i = 0; i < 40; ++i) out[i] = in[i] + 1;
   };
-  const FixedPointResult result = solveFixedPoint(10, 4, x, shift, {1e-3, 50}, parallel);
+  Progress progress;
+  const FixedPointResult result = solveFixedPoint(10, 4, x, shift, {1e-3, 50}, parallel, progress);
   CHECK_FALSE(result.converged);
   CHECK(result.steps == 50);
 }
@@ -169,7 +171,8 @@ TEST_CASE("an expansion of many dimensions is never reported as solved when it i
     };
     const Parallel parallel(1);
     std::vector<float> x(std::size_t(n), 0.0f);
-    const FixedPointResult result = solveFixedPoint(std::size_t(n), 1, x, map, {1e-3, 60}, parallel);
+    Progress progress;
+    const FixedPointResult result = solveFixedPoint(std::size_t(n), 1, x, map, {1e-3, 60}, parallel, progress);
     CHECK_FALSE(result.converged);
     CHECK(result.steps == 60);
   }
@@ -182,7 +185,8 @@ TEST_CASE("a linear map that expands in few dimensions is still solved", "[fixed
   const auto map = [](const float* in, float* out) {
     for (int i = 0; i < 4; ++i) out[i] = 1 - 3 * in[i];
   };
-  const FixedPointResult result = solveFixedPoint(4, 1, x, map, {1e-5, 20}, parallel);
+  Progress progress;
+  const FixedPointResult result = solveFixedPoint(4, 1, x, map, {1e-5, 20}, parallel, progress);
   CHECK(result.converged);
   for (const float value : x) CHECK(std::abs(value - 0.25f) < 1e-5f);
 }

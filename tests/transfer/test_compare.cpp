@@ -25,6 +25,11 @@ void disturb(BakedPly& baked, std::size_t vertex, int channel, int coefficient, 
                               static_cast<std::size_t>(coefficient)] += static_cast<float>(amount * norm);
 }
 
+TransferComparison compared(const BakedPly& a, const BakedPly& b) {
+  Progress progress;
+  return compareTransfer(a, b, progress);
+}
+
 bool anyNote(const TransferComparison& c, const std::string& text) {
   for (const std::string& note : c.notes) {
     if (note.find(text) != note.npos) return true;
@@ -37,7 +42,7 @@ bool anyNote(const TransferComparison& c, const std::string& text) {
 TEST_CASE("Compare: a bake with itself") {
   for (const int channels : {1, 3}) {
     const BakedPly baked = openOctahedron(4, channels, kGrey);
-    const TransferComparison c = compareTransfer(baked, baked);
+    const TransferComparison c = compared(baked, baked);
     CHECK(c.rmsError == 0);
     CHECK(c.worstError == 0);
     CHECK(c.matched == 6);
@@ -57,7 +62,7 @@ TEST_CASE("Compare: the error is relative to the unshadowed transfer with the sa
   const BakedPly b = openOctahedron(3, 1, kGrey);
   BakedPly a = b;
   disturb(a, 2, 0, 4, 0.1);
-  const TransferComparison c = compareTransfer(a, b);
+  const TransferComparison c = compared(a, b);
   CHECK(c.worstError == Approx(0.1).epsilon(kFloat));
   CHECK(c.worstVertex == 2);
   CHECK(c.worstPosition == Vec3d(0, 0, 1));
@@ -73,7 +78,7 @@ TEST_CASE("Compare: channels count together") {
   disturb(a, 0, 1, 5, 0.1, 1);
   disturb(a, 0, 2, 6, 0.2, 1);
   const double expected = std::hypot(0.1, 0.2) / std::sqrt(0.8 * 0.8 + 0.4 * 0.4 + 0.2 * 0.2);
-  CHECK(compareTransfer(a, b).worstError == Approx(expected).epsilon(kFloat));
+  CHECK(compared(a, b).worstError == Approx(expected).epsilon(kFloat));
 }
 
 TEST_CASE("Compare: the mean weighs vertices by their area") {
@@ -90,7 +95,7 @@ TEST_CASE("Compare: the mean weighs vertices by their area") {
   BakedPly a = b;
   a.transfer.coefficients[0] = open * 1.3f;
   a.transfer.coefficients[4] = open * 0.9f;
-  const TransferComparison c = compareTransfer(a, b);
+  const TransferComparison c = compared(a, b);
   // Areas 0.5 and 2, a third to each corner: (0.5 * 0.3^2 + 2 * 0.1^2) / (3 * 2.5).
   CHECK(c.rmsError == Approx(std::sqrt((0.5 * 0.09 + 2 * 0.01) / 7.5)).epsilon(1e-5));
   CHECK(c.worstVertex == 0);
@@ -107,7 +112,7 @@ TEST_CASE("Compare: the mean weighs vertices by their area") {
       square->transfer.coefficients.assign(4, open);
     }
     a.transfer.coefficients = {open * 1.2f, open * 1.1f, open, open};
-    CHECK(compareTransfer(a, b).rmsError == Approx(std::sqrt((2 * 0.04 + 0.01) / 6)).epsilon(1e-5));
+    CHECK(compared(a, b).rmsError == Approx(std::sqrt((2 * 0.04 + 0.01) / 6)).epsilon(1e-5));
   }
   SECTION("and is the same at any scale and place") {
     for (const double scale : {1e-6, 1e6}) {
@@ -115,7 +120,7 @@ TEST_CASE("Compare: the mean weighs vertices by their area") {
       for (BakedPly* moved : {&movedA, &movedB}) {
         for (Vec3d& p : moved->mesh.positions) p = (p + Vec3d(1e3, -1e3, 0)) * scale;
       }
-      const TransferComparison moved = compareTransfer(movedA, movedB);
+      const TransferComparison moved = compared(movedA, movedB);
       CHECK(moved.rmsError == Approx(c.rmsError).epsilon(1e-9));
       CHECK(moved.matched == 6);
     }
@@ -124,12 +129,12 @@ TEST_CASE("Compare: the mean weighs vertices by their area") {
     for (BakedPly* flat : {&a, &b}) {
       for (Vec3d& p : flat->mesh.positions) p.y = 0;
     }
-    CHECK(compareTransfer(a, b).rmsError == Approx(std::sqrt((0.09 + 0.01) / 6)).epsilon(1e-5));
+    CHECK(compared(a, b).rmsError == Approx(std::sqrt((0.09 + 0.01) / 6)).epsilon(1e-5));
   }
   SECTION("as do clouds of points") {
     a.mesh.triangles.clear();
     b.mesh.triangles.clear();
-    CHECK(compareTransfer(a, b).rmsError == Approx(std::sqrt((0.09 + 0.01) / 6)).epsilon(1e-5));
+    CHECK(compared(a, b).rmsError == Approx(std::sqrt((0.09 + 0.01) / 6)).epsilon(1e-5));
   }
 }
 
@@ -147,14 +152,14 @@ TEST_CASE("Compare: the order of vertices does not matter, and what has no partn
   for (Triangle& t : a.mesh.triangles) {
     for (std::uint32_t& v : t) v = 5 - v;
   }
-  CHECK(compareTransfer(a, b).rmsError == 0);
-  CHECK(compareTransfer(a, b).matched == 6);
+  CHECK(compared(a, b).rmsError == 0);
+  CHECK(compared(a, b).matched == 6);
   a.mesh.positions[0].z -= 1e-4;
   a.mesh.vertexNormals[1] = Vec3f(0, -1, 1e-3f);
   a.mesh.positions.push_back({0, 0, 0});
   a.mesh.vertexNormals.push_back({0, 0, 1});
   a.transfer.coefficients.resize(63);
-  const TransferComparison c = compareTransfer(a, b);
+  const TransferComparison c = compared(a, b);
   CHECK(c.matched == 4);
   CHECK(c.unmatchedA == 2);
   CHECK(c.unmatchedB == 2);
@@ -167,26 +172,26 @@ TEST_CASE("Compare: the order of vertices does not matter, and what has no partn
 TEST_CASE("Compare: different orders meet on the bands that both have") {
   const BakedPly b = openOctahedron(5, 1, kGrey);
   BakedPly a = openOctahedron(3, 1, kGrey);
-  const TransferComparison same = compareTransfer(a, b);
+  const TransferComparison same = compared(a, b);
   CHECK(same.order == 3);
   CHECK(same.rmsError < 1e-7);
   CHECK(anyNote(same, "orders are 3 and 5"));
   disturb(a, 1, 0, 8, 0.2);
-  CHECK(compareTransfer(a, b).worstError == Approx(0.2).epsilon(kFloat));
-  CHECK(compareTransfer(b, a).worstError == Approx(0.2).epsilon(kFloat));
+  CHECK(compared(a, b).worstError == Approx(0.2).epsilon(kFloat));
+  CHECK(compared(b, a).worstError == Approx(0.2).epsilon(kFloat));
 }
 
 TEST_CASE("Compare: one channel stands for three") {
   const BakedPly grey = openOctahedron(3, 1, kGrey), colored = openOctahedron(3, 3, kGrey);
   for (const bool turned : {false, true}) {
-    const TransferComparison c = turned ? compareTransfer(grey, colored) : compareTransfer(colored, grey);
+    const TransferComparison c = turned ? compared(grey, colored) : compared(colored, grey);
     CHECK(c.channels == 3);
     CHECK(c.rmsError == 0);
     CHECK(anyNote(c, "one channel"));
   }
   BakedPly a = colored;
   disturb(a, 3, 2, 1, 0.3);
-  CHECK(compareTransfer(a, grey).worstError == Approx(0.3 / std::sqrt(3.0)).epsilon(kFloat));
+  CHECK(compared(a, grey).worstError == Approx(0.3 / std::sqrt(3.0)).epsilon(kFloat));
 }
 
 TEST_CASE("Compare: stated errors beside true ones") {
@@ -196,29 +201,29 @@ TEST_CASE("Compare: stated errors beside true ones") {
   disturb(a, 0, 0, 0, 0.029);   // within three times 0.01
   disturb(a, 1, 0, 0, -0.061);  // beyond three times 0.02
   disturb(a, 2, 0, 0, 0.001);   // stated as exact
-  const TransferComparison c = compareTransfer(a, b);
+  const TransferComparison c = compared(a, b);
   CHECK(c.statedRmsA == Approx(std::sqrt((1e-4 + 4e-4 + 1e-4) / 6)).epsilon(1e-5));
   CHECK(c.statedRmsB == 0.0);
   CHECK(c.shareBeyondStated == Approx(2.0 / 6));
   SECTION("the reference's own error counts in quadrature") {
     b.transfer.error = {0, 0.015f, 0.01f, 0, 0, 0};
-    CHECK(compareTransfer(a, b).shareBeyondStated == 0.0);
+    CHECK(compared(a, b).shareBeyondStated == 0.0);
     b.transfer.error = {0, 0.0f, 0.01f, 0, 0, 0};
-    CHECK(compareTransfer(a, b).shareBeyondStated == Approx(1.0 / 6));
+    CHECK(compared(a, b).shareBeyondStated == Approx(1.0 / 6));
   }
   SECTION("rounding is no error") {
     BakedPly rounded = b;
     rounded.transfer.error.assign(6, 0);
     for (float& t : rounded.transfer.coefficients) t = std::nextafter(t, 2.0f);
-    const TransferComparison r = compareTransfer(rounded, b);
+    const TransferComparison r = compared(rounded, b);
     CHECK(r.worstError > 0);
     CHECK(r.shareBeyondStated == 0.0);
   }
   SECTION("files without sh_error state what their header does, or nothing") {
     b.facts.rmsError = 0.25;
-    CHECK(compareTransfer(a, b).statedRmsB == 0.25);
+    CHECK(compared(a, b).statedRmsB == 0.25);
     b.stated = false;
-    CHECK_FALSE(compareTransfer(a, b).statedRmsB);
+    CHECK_FALSE(compared(a, b).statedRmsB);
   }
 }
 
@@ -229,7 +234,7 @@ TEST_CASE("Compare: where the albedo comes from") {
   BakedPly silentA = a, silentB = b;
   silentA.facts.albedo = silentB.facts.albedo = {};
   SECTION("from the other file") {
-    const TransferComparison c = compareTransfer(a, silentB);
+    const TransferComparison c = compared(a, silentB);
     CHECK(c.worstError == Approx(0.1).epsilon(kFloat));
     CHECK(anyNote(c, "relative to the albedo of octahedron.ply"));
   }
@@ -237,13 +242,13 @@ TEST_CASE("Compare: where the albedo comes from") {
     for (std::size_t i = 9; i < 54; ++i) silentB.transfer.coefficients[i] *= 0.5f;
     silentA.transfer.coefficients = silentB.transfer.coefficients;
     disturb(silentA, 0, 0, 2, 0.1);
-    const TransferComparison c = compareTransfer(silentA, silentB);
+    const TransferComparison c = compared(silentA, silentB);
     CHECK(c.worstError == Approx(0.1).epsilon(kFloat));
     CHECK(anyNote(c, "neither file tells its albedo"));
   }
   SECTION("white where it is left out") {
     for (BakedPly* file : {&a, &silentB}) file->facts.albedo = {false, AlbedoOrigin::uniform, kGrey, false};
-    CHECK(compareTransfer(a, silentB).worstError == Approx(0.05).epsilon(kFloat));
+    CHECK(compared(a, silentB).worstError == Approx(0.05).epsilon(kFloat));
   }
   SECTION("black points have no relative error") {
     for (BakedPly* file : {&a, &silentB}) {
@@ -251,7 +256,7 @@ TEST_CASE("Compare: where the albedo comes from") {
       file->mesh.vertexColors.assign(6, kGrey);
       file->mesh.vertexColors[0] = Rgb(0, 0, 0);
     }
-    const TransferComparison c = compareTransfer(a, silentB);
+    const TransferComparison c = compared(a, silentB);
     CHECK(c.black == 1);
     CHECK(c.matched == 5);
     CHECK(c.worstError == 0);
@@ -263,7 +268,7 @@ TEST_CASE("Compare: different kinds of transfer are said") {
   const BakedPly b = openOctahedron(3, 1, kGrey);
   BakedPly a = b;
   a.facts.kind = TransferKind::interreflected;
-  CHECK(anyNote(compareTransfer(a, b), "interreflected and unshadowed"));
+  CHECK(anyNote(compared(a, b), "interreflected and unshadowed"));
 }
 
 TEST_CASE("Compare: what cannot be compared names the file") {
@@ -272,7 +277,7 @@ TEST_CASE("Compare: what cannot be compared names the file") {
     BakedPly a = b;
     a.mesh.source = "a.ply";
     change(a);
-    const auto error = errorOf([&] { compareTransfer(a, b); });
+    const auto error = errorOf([&] { compared(a, b); });
     REQUIRE(error);
     CHECK_FALSE(error->remedy.empty());
     return error->file + ": " + error->cause;
@@ -285,7 +290,7 @@ TEST_CASE("Compare: what cannot be compared names the file") {
              }),
              Catch::StartsWith("a.ply: none of its lighting points"));
   BakedPly black = openOctahedron(2, 1, Rgb(0, 0, 0));
-  CHECK_THAT(errorOf([&] { compareTransfer(black, black); })->cause, Catch::Contains("black wherever points match"));
+  CHECK_THAT(errorOf([&] { compared(black, black); })->cause, Catch::Contains("black wherever points match"));
   black.facts.albedo = {};
-  CHECK_THAT(errorOf([&] { compareTransfer(black, black); })->cause, Catch::Contains("black wherever points match"));
+  CHECK_THAT(errorOf([&] { compared(black, black); })->cause, Catch::Contains("black wherever points match"));
 }

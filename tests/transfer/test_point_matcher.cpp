@@ -18,6 +18,12 @@ Vec3f unitVector(Random& random) {
   return Vec3f(Vec3d(r * std::cos(phi), r * std::sin(phi), z));
 }
 
+PointMatcher matcherOf(const std::vector<Vec3d>& positions, const std::vector<Vec3f>& normals) {
+  Progress progress;
+  Passes passes(progress, "matcher", positions.size(), "points", 2);
+  return PointMatcher(positions, normals, passes);
+}
+
 }  // namespace
 
 TEST_CASE("Point matcher: every point finds itself, whatever the scale and shift") {
@@ -31,7 +37,7 @@ TEST_CASE("Point matcher: every point finds itself, whatever the scale and shift
         positions.push_back((p + Vec3d(shift, -shift, 0)) * scale);
         normals.push_back(unitVector(random));
       }
-      const PointMatcher matcher(positions, normals);
+      const PointMatcher matcher = matcherOf(positions, normals);
       std::size_t wrong = 0;
       for (std::uint32_t i = 0; i < positions.size(); ++i) wrong += matcher.find(positions[i], normals[i], 0) != i;
       CHECK(wrong == 0);
@@ -54,7 +60,7 @@ TEST_CASE("Point matcher: agrees with trying all pairs where many are near") {
     positions.push_back(crowded());
     normals.push_back(tilted());
   }
-  const PointMatcher matcher(positions, normals);
+  const PointMatcher matcher = matcherOf(positions, normals);
   CHECK(matcher.distance() == Approx(PointMatcher::kRelativeDistance));
   std::size_t matched = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -83,7 +89,7 @@ TEST_CASE("Point matcher: at a crease the normal decides, among twins the prefer
   const Vec3d p(1, 2, 3);
   const std::vector<Vec3d> positions = {{0, 0, 0}, p, p, p, p, {4, 4, 4}};
   const std::vector<Vec3f> normals = {{0, 0, 1}, {0, 0, 1}, {1, 0, 0}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
-  const PointMatcher matcher(positions, normals);
+  const PointMatcher matcher = matcherOf(positions, normals);
   CHECK(matcher.find(p, {1, 0, 0}, 9) == 2u);
   CHECK(matcher.find(p, {0, 0, 1}, 9) == 1u);
   CHECK(matcher.find(p, {0, 0, 1}, 2) == 1u);
@@ -98,10 +104,10 @@ TEST_CASE("Point matcher: at a crease the normal decides, among twins the prefer
 TEST_CASE("Point matcher: nothing, one point, and places far outside") {
   const std::vector<Vec3d> none;
   const std::vector<Vec3f> noNormals;
-  CHECK_FALSE(PointMatcher(none, noNormals).find({0, 0, 0}, {0, 0, 1}, 0));
+  CHECK_FALSE(matcherOf(none, noNormals).find({0, 0, 0}, {0, 0, 1}, 0));
   const std::vector<Vec3d> origin = {{0, 0, 0}};
   const std::vector<Vec3f> up = {{0, 0, 1}};
-  const PointMatcher matcher(origin, up);
+  const PointMatcher matcher = matcherOf(origin, up);
   CHECK(matcher.find({0, 0, 0}, {0, 0, 1}, 0) == 0u);
   CHECK_FALSE(matcher.find({1e-30, 0, 0}, {0, 0, 1}, 0));
   for (const double far : {1e18, 1e300, -1e300}) CHECK_FALSE(matcher.find({far, 0, far}, {0, 0, 1}, 0));
