@@ -14,6 +14,7 @@ namespace shbake::meshlab {
 struct BakeRecord {
   int order = 0, channels = 1;
   bool hasError = false, hasVisibility = false, hasSource = false;
+  std::uint64_t number = 0;  ///< another one for each bake of this process
   TransferFacts facts;
   std::vector<std::string> comments;   ///< other comments of the file that the layer was read from
   std::array<double, 16> transform{};  ///< the layer's at the time of the bake, row by row

@@ -72,6 +72,15 @@ struct LayerSurface {
 };
 LayerSurface readSurface(MeshModel& layer);
 
+/// What a layer's shape, pose and bake were at some moment. Of large layers only some vertices and faces are looked at,
+/// at least one in each 1/65536 of them.
+struct LayerState {
+  std::uint64_t hash = 0;
+
+  friend bool operator==(const LayerState&, const LayerState&) = default;
+};
+LayerState stateOf(MeshModel& layer);
+
 /// The layer's transform as OpenGL wants it: column by column.
 std::array<float, 16> columnMajorTransform(const MeshModel& layer);
 

@@ -158,6 +158,8 @@ void keepTransfer(MeshModel& layer, const std::vector<std::uint32_t>& places, co
   record.hasError = !t.error.empty();
   record.hasVisibility = !t.visibility.empty();
   record.hasSource = !sourceVertex.empty();
+  static std::uint64_t bakes = 0;
+  record.number = ++bakes;
   record.facts = facts;
   record.transform = transformOf(layer);
   if (record.hasError) addAttribute<float>(m, kError, places, [&](std::size_t p) { return t.error[p]; });

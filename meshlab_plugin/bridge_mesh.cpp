@@ -1,4 +1,5 @@
 // Layers read as meshes, and baked meshes put into layers: positions, faces, normals and colours.
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -113,6 +114,31 @@ LayerSurface readSurface(MeshModel& layer) {
     surface.triangles.push_back(corners);
   }
   return surface;
+}
+
+LayerState stateOf(MeshModel& layer) {
+  constexpr std::size_t kLooks = 65536;
+  const CMeshO& m = layer.cm;
+  std::uint64_t hash = 0xcbf29ce484222325ull;
+  const auto add = [&hash](std::uint64_t bits) {
+    hash = (hash ^ bits) * 0x9E3779B97F4A7C15ull;
+    hash ^= hash >> 32;
+  };
+  add(m.vert.size());
+  add(m.face.size());
+  add(static_cast<std::uint64_t>(m.vn));
+  add(static_cast<std::uint64_t>(m.fn));
+  for (const double v : transformOf(layer)) add(std::bit_cast<std::uint64_t>(v));
+  if (const BakeRecord* record = findRecord(layer)) add(record->number);
+  for (std::size_t i = 0; i < m.vert.size(); i += 1 + m.vert.size() / kLooks) {
+    const Vec3d p = positionOf(m.vert[i]);
+    for (const double v : {p.x, p.y, p.z}) add(std::bit_cast<std::uint64_t>(v));
+  }
+  for (std::size_t f = 0; f < m.face.size(); f += 1 + m.face.size() / kLooks) {
+    if (m.face[f].IsD()) continue;
+    for (const std::uint32_t c : cornersOf(m, m.face[f])) add(c);
+  }
+  return {hash};
 }
 
 std::array<float, 16> columnMajorTransform(const MeshModel& layer) {
