@@ -2,7 +2,11 @@
 #include "light/bad_pixels.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+
+#include "light/vector_clones.h"
 
 namespace shbake {
 namespace {
@@ -15,6 +19,19 @@ bool any(const Rgb& p, Test&& test) {
 float repaired(float v, float mostFinite, bool keepNegative) {
   if (std::isinf(v)) return v > 0 ? mostFinite : 0;
   return keepNegative ? v : std::max(v, 0.0f);
+}
+
+/// True where no sign bit is set and no exponent is that of infinities and NaNs: adding 1 to it then leaves the sign
+/// bit clear, too.
+SHBAKE_VECTOR_CLONES bool isSurelyGood(std::span<const Rgb> row) {
+  static_assert(sizeof(Rgb) == 3 * sizeof(float));
+  const float* values = &row.data()->x;
+  std::uint32_t signs = 0;
+  for (std::size_t i = 0; i < 3 * row.size(); ++i) {
+    const auto bits = std::bit_cast<std::uint32_t>(values[i]);
+    signs |= bits | (bits + 0x00800000u);
+  }
+  return signs >> 31 == 0;
 }
 
 }  // namespace
@@ -31,11 +48,8 @@ void BadPixels::add(const BadPixels& later) {
 
 BadPixels repairRow(std::span<Rgb> row, int y, float mostFinite, bool keepNegative) {
   BadPixels found;
-  // One pass without branches decides whether anything is wrong, which is nearly never so.
-  const auto isBad = [](float v) { return static_cast<int>(!(v >= 0)) | static_cast<int>(!(v < INFINITY)); };
-  int bad = 0;
-  for (const Rgb& p : row) bad |= isBad(p.x) | isBad(p.y) | isBad(p.z);
-  if (bad == 0) return found;
+  // One pass without branches decides whether anything may be wrong, which is nearly never so.
+  if (isSurelyGood(row)) return found;
 
   for (std::size_t x = 0; x < row.size(); ++x) {
     Rgb& p = row[x];

@@ -25,15 +25,16 @@ Growth growthOf(MapLayout layout, int order) {
   return {[order](double y) { return (order - 1) * std::atanh(y) - 1.5 * std::log1p(-y * y); }, 1};
 }
 
-/// The width in pixels, a power of two, of tiles that make the work a pixel least: 3 multiplications a node of a row,
-/// and y_lm with its sums once a node of the tile, which counts as 50 + 3 order^2.
+/// The width in pixels, a power of two, of tiles that make the work a pixel least: half a multiplication a node of a
+/// column in three channels, the same for each node of a column along rows, and y_lm with its sums once a node of the
+/// tile, which counts as 50 + 3 order^2.
 int bestTileWidth(const Growth& growth, double cell, int size, int order) {
   int best = 1;
   double least = HUGE_VAL;
   for (int width = 1; width <= std::min(kMaxTile, size); width *= 2) {
     const int n = width == 1 ? gaussNodes(growth, cell) : interpolationNodes(growth, width * cell);
     const double nodesPerPixel = static_cast<double>(n) / width;
-    const double cost = 3.0 * n + nodesPerPixel * nodesPerPixel * (50 + 3.0 * order * order);
+    const double cost = 1.5 * n * (1 + nodesPerPixel) + nodesPerPixel * nodesPerPixel * (50 + 3.0 * order * order);
     if (cost < least) {
       least = cost;
       best = width;
@@ -42,33 +43,20 @@ int bestTileWidth(const Growth& growth, double cell, int size, int order) {
   return best;
 }
 
-/// The integral over [low, high] of the polynomial that is 1 in nodes[which] and 0 in the others.
-double lagrangeIntegral(const std::vector<double>& nodes, std::size_t which, double low, double high,
-                        const sh::IntervalRule& rule) {
-  double sum = 0;
-  for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
-    const double x = low + (high - low) * (1 + rule.nodes[k]) / 2;
-    double value = 1;
-    for (std::size_t j = 0; j < nodes.size(); ++j) {
-      if (j != which) value *= (x - nodes[j]) / (nodes[which] - nodes[j]);
-    }
-    sum += rule.weights[k] * (high - low) / 2 * value;
-  }
-  return sum;
-}
-
 }  // namespace
 
 /// A rectangle in chart coordinates: s rightwards and t upwards, both -1..1.
 struct ChartProjector::Area {
   double s0, s1, t0, t1;
 
+  /// Squared distances from the centre.
   double farthest() const {
-    return std::hypot(std::max(std::abs(s0), std::abs(s1)), std::max(std::abs(t0), std::abs(t1)));
+    const double s = std::max(std::abs(s0), std::abs(s1)), t = std::max(std::abs(t0), std::abs(t1));
+    return s * s + t * t;
   }
   double nearest() const {
     const double s = s0 > 0 ? s0 : s1 < 0 ? s1 : 0, t = t0 > 0 ? t0 : t1 < 0 ? t1 : 0;
-    return std::hypot(s, t);
+    return s * s + t * t;
   }
 };
 
@@ -83,8 +71,16 @@ struct ChartProjector::View {
 };
 
 struct ChartProjector::Scratch {
-  std::vector<double> y;
   std::span<Vec3d> sum;
+  std::vector<double> y;
+  std::vector<double> pixel;  ///< integrals of y_lm over the part of a pixel
+  TileTable::Scratch table;
+  std::vector<const float*> rows;      ///< of the tile's pixels
+  std::vector<Rgb> masked;             ///< the tile's pixels, black where they do not count
+  std::vector<double> columnMoments;   ///< [node down][column][channel]
+  std::vector<double> turned;          ///< the same as [column][node down][channel]
+  std::vector<const double*> columns;  ///< of `turned`
+  std::vector<double> moments;         ///< [node across][node down][channel]
 };
 
 ChartProjector::ChartProjector(const MapShape& shape, int order) : shape_(shape), order_(order) {
@@ -96,13 +92,23 @@ ChartProjector::ChartProjector(const MapShape& shape, int order) : shape_(shape)
     throw Error({.place = "header", .cause = "a map with pixels on its edge needs 2 pixels across a face"});
   }
 
+  for (int i = 0; i <= size_; ++i) {
+    const double begin = shape_.border ? std::clamp((i - 0.5) / (size_ - 1), 0.0, 1.0) : static_cast<double>(i) / size_;
+    edges_.push_back(-1 + 2 * begin);
+  }
   const Growth growth = growthOf(shape.layout, order);
   const double cell = 1.0 / (shape_.border ? size_ - 1 : size_);  // half the width of a pixel
   const int widest = bestTileWidth(growth, cell, size_, order);
   tables_.resize(widest);
-  tables_[0] = makeCellTable(growth, cell);
+  tables_[0] = TileTable(sh::gaussLegendre(gaussNodes(growth, cell)).nodes, 1);
   const std::vector<int> cut = cuts();
-  for (std::size_t i = 0; i + 1 < cut.size(); ++i) addTables(growth, cell, cut[i + 1] - cut[i]);
+  for (std::size_t i = 0; i + 1 < cut.size(); ++i) {
+    const int width = cut[i + 1] - cut[i];
+    TileTable& table = tables_[width - 1];
+    if (table.nodes().empty()) {
+      table = TileTable(sh::gaussLegendre(interpolationNodes(growth, width * cell)).nodes, width);
+    }
+  }
   // Along the rim the ends of the inner integral move with the outer variable, at most as fast as it does, and are
   // smooth up to a distance of a quarter.
   if (angular) {
@@ -111,40 +117,8 @@ ChartProjector::ChartProjector(const MapShape& shape, int order) : shape_(shape)
   }
 }
 
-/// The table for tiles `width` pixels wide, and where tiles are divided at the rim, for their parts.
-void ChartProjector::addTables(const Growth& growth, double cell, int width) {
-  if (!tables_[width - 1].nodes.empty()) return;
-  tables_[width - 1] = makeTable(growth, width * cell, width);
-  if (shape_.layout != MapLayout::angular) return;
-  addTables(growth, cell, width / 2);
-  addTables(growth, cell, width - width / 2);
-}
-
-ChartProjector::TileTable ChartProjector::makeCellTable(const Growth& growth, double halfLength) {
-  const sh::IntervalRule rule = sh::gaussLegendre(gaussNodes(growth, halfLength));
-  return {rule.nodes, rule.weights};
-}
-
-ChartProjector::TileTable ChartProjector::makeTable(const Growth& growth, double halfLength, int width) {
-  TileTable table;
-  table.nodes = sh::gaussLegendre(interpolationNodes(growth, halfLength)).nodes;
-  const int n = static_cast<int>(table.nodes.size());
-  const sh::IntervalRule exact = sh::gaussLegendre((n + 1) / 2);
-  for (int cell = 0; cell < width; ++cell) {
-    const double low = -1 + 2.0 * cell / width, high = -1 + 2.0 * (cell + 1) / width;
-    for (int a = 0; a < n; ++a) table.integrals.push_back(lagrangeIntegral(table.nodes, a, low, high, exact));
-  }
-  return table;
-}
-
-/// Where pixel i of a chart begins, in -1..1.
-double ChartProjector::edge(int i) const {
-  if (!shape_.border) return -1 + 2.0 * i / size_;
-  return -1 + 2 * std::clamp((i - 0.5) / (size_ - 1), 0.0, 1.0);
-}
-
 ChartProjector::Area ChartProjector::areaOf(const Tile& tile) const {
-  return {edge(tile.x0), edge(tile.x1), -edge(tile.y1), -edge(tile.y0)};
+  return {edges_[tile.x0], edges_[tile.x1], -edges_[tile.y1], -edges_[tile.y0]};
 }
 
 /// Where tiles begin along a chart, and its end. Pixels on a border have half the width and tiles of their own.
@@ -173,7 +147,9 @@ std::vector<RowStrip> ChartProjector::strips() const {
 }
 
 void ChartProjector::project(const RowStrip& strip, std::span<const Rgb> pixels, std::span<Vec3d> sum) const {
-  Scratch scratch{std::vector<double>(sum.size()), sum};
+  Scratch scratch;
+  scratch.sum = sum;
+  scratch.y.resize(sum.size());
   const std::vector<int> columns = cuts();
   for (const CubeFace& chart : charts_) {
     if (strip.begin < chart.y || strip.begin >= chart.y + size_) continue;
@@ -182,7 +158,7 @@ void ChartProjector::project(const RowStrip& strip, std::span<const Rgb> pixels,
     for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
       const Tile tile{columns[i], columns[i + 1], top, bottom};
       if (shape_.layout == MapLayout::angular) {
-        addClipped(view, tile, scratch);
+        addRimTile(view, tile, scratch);
       } else {
         addTile(view, tile, scratch);
       }
@@ -190,51 +166,56 @@ void ChartProjector::project(const RowStrip& strip, std::span<const Rgb> pixels,
   }
 }
 
-/// Adds the tile to the sum: colours meet the polynomials of their column, then of their row, then y_lm in the nodes.
+/// Adds the tile to the sum.
 void ChartProjector::addTile(const View& view, const Tile& tile, Scratch& scratch) const {
+  scratch.rows.clear();
+  for (int y = tile.y0; y < tile.y1; ++y) scratch.rows.push_back(&view.row(y)[tile.x0].x);
+  addMoments(view.chart, tile, scratch);
+}
+
+/// Adds the tile of scratch.rows: colours meet the polynomials of their row, then of their column, then y_lm in the
+/// nodes.
+void ChartProjector::addMoments(const CubeFace& chart, const Tile& tile, Scratch& scratch) const {
   const TileTable& across = tables_[tile.x1 - tile.x0 - 1];
   const TileTable& down = tables_[tile.y1 - tile.y0 - 1];
-  const std::size_t na = across.nodes.size(), nb = down.nodes.size();
-  std::vector<double> red(na), green(na), blue(na);
-  std::vector<Vec3d> moments(na * nb);
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    std::fill(red.begin(), red.end(), 0);
-    std::fill(green.begin(), green.end(), 0);
-    std::fill(blue.begin(), blue.end(), 0);
-    const Rgb* row = view.row(y);
-    for (int x = tile.x0; x < tile.x1; ++x) {
-      const double* factors = &across.integrals[(x - tile.x0) * na];
-      const Vec3d p(row[x]);
-      for (std::size_t a = 0; a < na; ++a) {
-        red[a] += factors[a] * p.x;
-        green[a] += factors[a] * p.y;
-        blue[a] += factors[a] * p.z;
-      }
-    }
-    const double* factors = &down.integrals[(y - tile.y0) * nb];
-    for (std::size_t b = 0; b < nb; ++b) {
-      for (std::size_t a = 0; a < na; ++a) moments[b * na + a] += factors[b] * Vec3d{red[a], green[a], blue[a]};
-    }
+  const int na = static_cast<int>(across.nodes().size()), nb = static_cast<int>(down.nodes().size());
+  const int width = tile.x1 - tile.x0, stride = 3 * nb;
+  scratch.columnMoments.resize(static_cast<std::size_t>(stride) * width);
+  down.contract<float>(scratch.rows, 3 * width, scratch.columnMoments, scratch.table);
+
+  scratch.turned.resize(scratch.columnMoments.size());
+  scratch.columns.clear();
+  for (int x = 0; x < width; ++x) {
+    double* const column = &scratch.turned[static_cast<std::size_t>(x) * stride];
+    scratch.columns.push_back(column);
+    for (int b = 0; b < nb; ++b) std::copy_n(&scratch.columnMoments[(b * width + x) * 3], 3, column + 3 * b);
   }
+  scratch.moments.resize(static_cast<std::size_t>(stride) * na);
+  across.contract<double>(scratch.columns, stride, scratch.moments, scratch.table);
+
   const Area area = areaOf(tile);
   const double halfWidth = (area.s1 - area.s0) / 2, halfHeight = (area.t1 - area.t0) / 2;
-  for (std::size_t b = 0; b < nb; ++b) {
+  for (int b = 0; b < nb; ++b) {
     // Rows go down while t goes up.
-    const double t = area.t1 - halfHeight * (1 + down.nodes[b]);
-    for (std::size_t a = 0; a < na; ++a) {
-      const double s = area.s0 + halfWidth * (1 + across.nodes[a]);
-      addPoint(view.chart, s, t, halfWidth * halfHeight * moments[b * na + a], scratch);
+    const double t = area.t1 - halfHeight * (1 + down.nodes()[b]);
+    for (int a = 0; a < na; ++a) {
+      const double s = area.s0 + halfWidth * (1 + across.nodes()[a]);
+      const double weight = halfWidth * halfHeight * evaluateAt(chart, s, t, scratch);
+      const double* m = &scratch.moments[a * stride + 3 * b];
+      const Vec3d color = weight * Vec3d{m[0], m[1], m[2]};
+      for (std::size_t i = 0; i < scratch.y.size(); ++i) scratch.sum[i] += scratch.y[i] * color;
     }
   }
 }
 
-/// Adds `weight` times the solid angle per area times y_lm in the direction of the chart's point (s, t).
-void ChartProjector::addPoint(const CubeFace& chart, double s, double t, const Vec3d& weight, Scratch& scratch) const {
+/// Evaluates y_lm in the direction of the chart's point (s, t) into scratch.y; returns the solid angle per area there.
+double ChartProjector::evaluateAt(const CubeFace& chart, double s, double t, Scratch& scratch) const {
   Vec3d direction;
   double density;
   if (shape_.layout == MapLayout::angular) {
-    const double r = std::hypot(s, t), angle = pi * r, slope = r > 0 ? std::sin(angle) / r : pi;
-    direction = std::cos(angle) * chart.forward + slope * (s * chart.right + t * chart.up);
+    const double r = std::sqrt(s * s + t * t), sine = std::sin(pi * r), cosine = std::cos(pi * r);
+    const double slope = r > 0 ? sine / r : pi;
+    direction = cosine * chart.forward + slope * (s * chart.right + t * chart.up);
     density = pi * slope;
   } else {
     const double inverse = 1 / std::sqrt(1 + s * s + t * t);
@@ -242,35 +223,46 @@ void ChartProjector::addPoint(const CubeFace& chart, double s, double t, const V
     density = inverse * inverse * inverse;
   }
   sh::evaluate(order_, direction, scratch.y);
-  const Vec3d color = density * weight;
-  for (std::size_t i = 0; i < scratch.y.size(); ++i) scratch.sum[i] += scratch.y[i] * color;
+  return density;
 }
 
-/// Adds the part of the tile that lies within the circle of an angular map.
-void ChartProjector::addClipped(const View& view, const Tile& tile, Scratch& scratch) const {
+/// Adds the part of the tile that lies within the circle of an angular map: its whole pixels together, as y_lm and the
+/// solid angle go on smoothly beyond the rim, and those that the rim cuts one by one.
+void ChartProjector::addRimTile(const View& view, const Tile& tile, Scratch& scratch) const {
   const Area area = areaOf(tile);
-  const int width = tile.x1 - tile.x0, height = tile.y1 - tile.y0;
-  if (area.farthest() <= 1) {
-    addTile(view, tile, scratch);
-  } else if (area.nearest() >= 1) {
-    return;
-  } else if (width == 1 && height == 1) {
-    addRimPixel(view, tile, scratch);
-  } else if (width >= height) {
-    const int middle = tile.x0 + width / 2;
-    addClipped(view, {tile.x0, middle, tile.y0, tile.y1}, scratch);
-    addClipped(view, {middle, tile.x1, tile.y0, tile.y1}, scratch);
-  } else {
-    const int middle = tile.y0 + height / 2;
-    addClipped(view, {tile.x0, tile.x1, tile.y0, middle}, scratch);
-    addClipped(view, {tile.x0, tile.x1, middle, tile.y1}, scratch);
+  if (area.farthest() <= 1) return addTile(view, tile, scratch);
+  if (area.nearest() >= 1) return;
+  const int width = tile.x1 - tile.x0;
+  scratch.masked.assign(static_cast<std::size_t>(width) * (tile.y1 - tile.y0), Rgb{});
+  scratch.rows.clear();
+  bool any = false;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    Rgb* const row = &scratch.masked[static_cast<std::size_t>(y - tile.y0) * width];
+    scratch.rows.push_back(&row->x);
+    const Area strip = areaOf({tile.x0, tile.x1, y, y + 1});
+    if (strip.nearest() >= 1) continue;
+    if (strip.farthest() <= 1) {
+      std::copy_n(&view.row(y)[tile.x0], width, row);
+      any = true;
+      continue;
+    }
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      const Tile pixel{x, x + 1, y, y + 1};
+      const Area cell = areaOf(pixel);
+      if (cell.farthest() <= 1) {
+        row[x - tile.x0] = view.row(y)[x];
+        any = true;
+      } else if (cell.nearest() < 1) {
+        addRimPixel(view, pixel, scratch);
+      }
+    }
   }
+  if (any) addMoments(view.chart, tile, scratch);
 }
 
 /// Adds the part of one pixel that lies within the circle. The outer variable is the one along which the circle is
 /// flatter; between the places where it enters or leaves the pixel, the ends of the inner integral are smooth.
 void ChartProjector::addRimPixel(const View& view, const Tile& tile, Scratch& scratch) const {
-  const Vec3d color(view.row(tile.y0)[tile.x0]);
   const Area area = areaOf(tile);
   const bool outerIsS = std::abs(area.s0 + area.s1) < std::abs(area.t0 + area.t1);
   const double o0 = outerIsS ? area.s0 : area.t0, o1 = outerIsS ? area.s1 : area.t1;
@@ -286,6 +278,8 @@ void ChartProjector::addRimPixel(const View& view, const Tile& tile, Scratch& sc
   std::sort(breaks.begin(), breaks.end());
 
   const auto& [nodes, weights] = rimRule_;
+  std::vector<double>& integral = scratch.pixel;
+  integral.assign(scratch.y.size(), 0);
   for (std::size_t piece = 0; piece + 1 < breaks.size(); ++piece) {
     const double low = breaks[piece], half = (breaks[piece + 1] - low) / 2;
     for (std::size_t a = 0; a < nodes.size(); ++a) {
@@ -295,11 +289,14 @@ void ChartProjector::addRimPixel(const View& view, const Tile& tile, Scratch& sc
       if (halfChord <= 0) continue;
       for (std::size_t b = 0; b < nodes.size(); ++b) {
         const double inner = from + halfChord * (1 + nodes[b]);
-        const Vec3d weight = weights[a] * weights[b] * half * halfChord * color;
-        addPoint(view.chart, outerIsS ? outer : inner, outerIsS ? inner : outer, weight, scratch);
+        const double density = evaluateAt(view.chart, outerIsS ? outer : inner, outerIsS ? inner : outer, scratch);
+        const double weight = weights[a] * weights[b] * half * halfChord * density;
+        for (std::size_t i = 0; i < integral.size(); ++i) integral[i] += weight * scratch.y[i];
       }
     }
   }
+  const Vec3d color(view.row(tile.y0)[tile.x0]);
+  for (std::size_t i = 0; i < integral.size(); ++i) scratch.sum[i] += integral[i] * color;
 }
 
 }  // namespace shbake

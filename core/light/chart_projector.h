@@ -3,13 +3,15 @@
 
 #include "light/map_projector.h"
 #include "light/quadrature_size.h"
+#include "light/tile_table.h"
 #include "sh/quadrature.h"
 
 namespace shbake {
 
 /// The map is cut into tiles of up to 64 x 64 pixels. On a tile, y_lm times the solid angle per area is interpolated
-/// from a few nodes, and the integrals of the interpolating polynomials over each pixel are tabulated: a pixel costs a
-/// dozen multiplications a channel, and y_lm is evaluated at the nodes alone. The rim of an angular map is cut exactly.
+/// from a few nodes, and the integrals of the interpolating polynomials over each pixel are tabulated: a pixel costs
+/// about eight multiplications a channel, and y_lm is evaluated at the nodes alone. The rim of an angular map is cut
+/// exactly.
 class ChartProjector : public MapProjector {
  public:
   /// Throws an Error without a file name when the shape does not fit the layout (mapCharts()).
@@ -19,11 +21,6 @@ class ChartProjector : public MapProjector {
   void project(const RowStrip& strip, std::span<const Rgb> pixels, std::span<Vec3d> sum) const override;
 
  private:
-  /// The interpolating polynomials of a row of `width` cells that fill [-1, 1].
-  struct TileTable {
-    std::vector<double> nodes;
-    std::vector<double> integrals;  ///< [cell * nodes.size() + node]
-  };
   /// A rectangle of pixels of one chart.
   struct Tile {
     int x0, x1, y0, y1;
@@ -32,22 +29,20 @@ class ChartProjector : public MapProjector {
   struct View;
   struct Scratch;
 
-  void addTables(const Growth& growth, double cell, int width);
-  static TileTable makeTable(const Growth& growth, double halfLength, int width);
-  static TileTable makeCellTable(const Growth& growth, double halfLength);
-  double edge(int i) const;
   Area areaOf(const Tile& tile) const;
   std::vector<int> cuts() const;
   void addTile(const View& view, const Tile& tile, Scratch& scratch) const;
-  void addClipped(const View& view, const Tile& tile, Scratch& scratch) const;
+  void addRimTile(const View& view, const Tile& tile, Scratch& scratch) const;
+  void addMoments(const CubeFace& chart, const Tile& tile, Scratch& scratch) const;
   void addRimPixel(const View& view, const Tile& tile, Scratch& scratch) const;
-  void addPoint(const CubeFace& chart, double s, double t, const Vec3d& weight, Scratch& scratch) const;
+  double evaluateAt(const CubeFace& chart, double s, double t, Scratch& scratch) const;
 
   MapShape shape_;
   int order_;
   int size_;                       ///< pixels across a chart
+  std::vector<double> edges_;      ///< where the pixels of a chart begin, -1..1, and the end
   std::vector<CubeFace> charts_;   ///< six faces, or the one square of an angular map
-  std::vector<TileTable> tables_;  ///< of tiles 1, 2, ... pixels wide, empty where no tile is
+  std::vector<TileTable> tables_;  ///< of tiles 1, 2, ... pixels wide, without nodes where no tile is
   sh::IntervalRule rimRule_;       ///< for pixels that the rim of an angular map cuts
 };
 

@@ -32,26 +32,31 @@ std::size_t stripsOfChunk(const std::vector<RowStrip>& strips, std::size_t first
 /// The rows of a chunk. Tiled files are read in whole rows of tiles, so that a chunk may bring rows of the next one.
 class ChunkReader {
  public:
-  explicit ChunkReader(const MapRows& rows) : rows_(rows) {}
+  explicit ChunkReader(const MapRows& rows) : rows_(rows), width_(static_cast<std::size_t>(rows.width)) {}
 
   /// The pixels of rows begin..end-1, until the next call. `begin` does not fall.
   std::span<Rgb> read(int begin, int end) {
-    const std::size_t width = static_cast<std::size_t>(rows_.width);
-    held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>((begin - first_) * width));
+    // Rows that are held already move to the front.
+    if (begin > first_ && begin < end_) std::copy(held_.begin() + at(begin), held_.begin() + at(end_), held_.begin());
     first_ = begin;
-    const int have = first_ + static_cast<int>(held_.size() / width);
-    if (end > have) {
+    end_ = std::max(end_, begin);
+    if (end > end_) {
       const int upTo = std::min(rows_.height, (end + rows_.rowStep - 1) / rows_.rowStep * rows_.rowStep);
-      const std::size_t old = held_.size();
-      held_.resize(old + static_cast<std::size_t>(upTo - have) * width);
-      rows_.read(have, upTo, std::span(held_).subspan(old));
+      const auto need = static_cast<std::size_t>(at(upTo));
+      if (held_.size() < need) held_.resize(need);
+      rows_.read(end_, upTo, std::span(held_).subspan(at(end_), static_cast<std::size_t>(upTo - end_) * width_));
+      end_ = upTo;
     }
-    return std::span(held_).first(static_cast<std::size_t>(end - begin) * width);
+    return std::span(held_).first(static_cast<std::size_t>(at(end)));
   }
 
  private:
+  /// Where a row begins among the pixels.
+  std::ptrdiff_t at(int row) const { return static_cast<std::ptrdiff_t>(row - first_) * rows_.width; }
+
   const MapRows& rows_;
-  int first_ = 0;
+  std::size_t width_;
+  int first_ = 0, end_ = 0;  ///< the rows that are held
   std::vector<Rgb> held_;
 };
 
