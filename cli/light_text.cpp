@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <sstream>
 
@@ -67,6 +68,16 @@ WeightedFile parseWeightedFile(const std::string& text) {
   if (!hasWeight) return {text};
   const std::vector<double> numbers = parseNumbers(text, text.substr(at + 1), 1, 3, "FILE@WEIGHT or FILE@R,G,B");
   return {text.substr(0, at), colorFrom(numbers, 0, text)};
+}
+
+bool isLightFile(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".shlight";
+}
+
+void requireLightFileName(const std::string& path) {
+  if (isLightFile(path)) return;
+  throw Error(
+      {.kind = ErrorKind::usage, .file = path, .cause = "is not named as a light file", .remedy = "name it .shlight"});
 }
 
 std::string vectorText(const Vec3d& v) {

@@ -28,6 +28,11 @@ struct WeightedFile {
 };
 WeightedFile parseWeightedFile(const std::string& text);
 
+/// True for the name of a light file.
+bool isLightFile(const std::string& path);
+/// Throws a usage error for an output that is not named as one.
+void requireLightFileName(const std::string& path);
+
 /// "(0.12, -0.5, 0.86)".
 std::string vectorText(const Vec3d& v);
 

@@ -4,11 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 #include "cli/format.h"
 #include "cli/light_options.h"
+#include "cli/light_text.h"
 #include "cli/options.h"
 #include "cli/verb.h"
 
@@ -60,10 +60,6 @@ ViewLight ViewLight::turned(const sh::Matrix3d& rotation, const Vec3d& about) co
     };
   }
   return result;
-}
-
-bool isLightFile(const std::string& path) {
-  return std::filesystem::path(path).extension() == ".shlight";
 }
 
 void ViewLightOptions::declare(CLI::App& app) {

@@ -57,7 +57,4 @@ class ViewLightOptions {
   sh::Window window_ = sh::Window::none;
 };
 
-/// True for the name of a light file.
-bool isLightFile(const std::string& path);
-
 }  // namespace shbake::cli

@@ -151,12 +151,7 @@ void MakeLight::checkInputs() const {
                     constants_.empty() && gradients_.empty() && samples_.empty();
   if (none) throw usageError("nothing to make light from", usage + "; or add --sky, --disc, --parallel or --constant");
   if (output_.empty()) throw usageError("no output is named", usage);
-  if (fs::path(output_).extension() != ".shlight") {
-    throw Error({.kind = ErrorKind::usage,
-                 .file = output_,
-                 .cause = "is not named as a light file",
-                 .remedy = "name it .shlight"});
-  }
+  requireLightFileName(output_);
   std::vector<std::string> paths;
   for (const std::string& input : inputs_) paths.push_back(parseWeightedFile(input).path);
   for (const std::string& sample : samples_) paths.push_back(parseSample(sample).file.path);
@@ -210,7 +205,7 @@ NamedLight MakeLight::readFile(const std::string& path, Session& session) const 
 }
 
 NamedLight MakeLight::read(const std::string& path, Session& session) const {
-  return fs::path(path).extension() == ".shlight" ? readFile(path, session) : readMap(path, session);
+  return isLightFile(path) ? readFile(path, session) : readMap(path, session);
 }
 
 void MakeLight::addFiles(Session& session) {

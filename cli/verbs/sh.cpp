@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "cli/format.h"
@@ -18,10 +19,43 @@ namespace {
 namespace fs = std::filesystem;
 
 /// How coefficients are written down outside of light files.
-enum class Convention { shbake, condonShortley, geodesy };
+enum class Convention { shbake, condonShortley, geodesy, hazel };
 
-const std::vector<std::pair<std::string, Convention>> kConventions{
-    {"shbake", Convention::shbake}, {"condon-shortley", Convention::condonShortley}, {"geodesy", Convention::geodesy}};
+const std::vector<std::pair<std::string, Convention>> kConventions{{"shbake", Convention::shbake},
+                                                                   {"condon-shortley", Convention::condonShortley},
+                                                                   {"geodesy", Convention::geodesy},
+                                                                   {"hazel", Convention::hazel}};
+const std::vector<std::pair<std::string, UpAxis>> kAxes{{"z", UpAxis::z}, {"y", UpAxis::y}};
+
+/// Numbers a channel in Hazel's form: R0, R1 x y z, R2 xx yy zz xy xz yz.
+constexpr std::size_t kHazelNumbers = 10;
+
+std::vector<double> hazelNumbers(const sh::HazelLight& h) {
+  return {h.r0, h.r1.x, h.r1.y, h.r1.z, h.xx, h.yy, h.zz, h.xy, h.xz, h.yz};
+}
+
+/// Order 3 from ten numbers (grey), or ten for red, ten for green and ten for blue. R2 has no trace: a file that gives
+/// it one holds something else.
+Light lightFromHazel(const std::string& path, const std::vector<double>& numbers) {
+  if (numbers.size() != kHazelNumbers && numbers.size() != 3 * kHazelNumbers) {
+    throw Error({.file = path,
+                 .cause = "holds " + std::to_string(numbers.size()) + " numbers where Hazel's form has 10 a channel",
+                 .remedy = "give R0, R1 x y z, R2 xx yy zz xy xz yz, once (grey) or for red, green and blue"});
+  }
+  Light light(3);
+  for (int c = 0; c < 3; ++c) {
+    const double* n = &numbers[numbers.size() == kHazelNumbers ? 0 : c * kHazelNumbers];
+    const double size = std::abs(n[4]) + std::abs(n[5]) + std::abs(n[6]);
+    // Numbers of six digits leave a trace of a few millionths.
+    if (std::abs(n[4] + n[5] + n[6]) > 1e-5 * size) {
+      throw Error({.file = path,
+                   .cause = "R2 xx + yy + zz is not 0",
+                   .remedy = "give the traceless matrix: a third of the trace is part of R0"});
+    }
+    light.setChannel(c, sh::toCoefficients({n[0], {n[1], n[2], n[3]}, n[4], n[5], n[6], n[7], n[8], n[9]}));
+  }
+  return light;
+}
 
 Light converted(const Light& light, Convention convention, bool to) {
   Light result(light.order);
@@ -36,8 +70,8 @@ Light converted(const Light& light, Convention convention, bool to) {
   return result;
 }
 
-/// Coefficients from a text of numbers: n^2 for grey light, or n^2 rows of three.
-Light readCoefficients(const std::string& path) {
+/// The numbers of a text; '#' begins a comment.
+std::vector<double> readNumbers(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw Error({.file = path, .cause = "cannot be opened", .remedy = "correct the path"});
   constexpr std::size_t kMostNumbers = 3 * std::size_t(kMaxLightOrder) * kMaxLightOrder;
@@ -62,6 +96,11 @@ Light readCoefficients(const std::string& path) {
       }
     }
   }
+  return numbers;
+}
+
+/// Coefficients from n^2 numbers for grey light, or n^2 rows of three.
+Light lightFromCoefficients(const std::string& path, const std::vector<double>& numbers) {
   for (const std::size_t channels : {std::size_t(1), std::size_t(3)}) {
     const int order = static_cast<int>(std::lround(std::sqrt(static_cast<double>(numbers.size() / channels))));
     if (order < 1 || order > kMaxLightOrder || channels * order * order != numbers.size()) continue;
@@ -87,18 +126,29 @@ class Calculate : public Verb {
   void calculate(Session& session);
   void multiply();
   void describeDirections(Report& report) const;
+  void print(Report& report) const;
   void printHazel(Report& report) const;
-  void printCoefficients(Report& report) const;
 
   std::string input_, output_, factor_;
   std::vector<std::string> turns_, directions_;
   std::string mirror_ = "none";
   int order_ = 0;
-  bool print_ = false, hazel_ = false;
+  bool print_ = false;
+  std::optional<UpAxis> fromUp_, toUp_;
   sh::Window window_ = sh::Window::none;
   Convention from_ = Convention::shbake, to_ = Convention::shbake;
   LightFile file_;
 };
+
+/// Adds a choice of axes that is left open unless it is given.
+void addAxes(CLI::App& app, const OptionText& text, const std::string& defaultText, std::optional<UpAxis>& up) {
+  addOption(app, text, defaultText, [&up](const std::string& name, const std::string& value) {
+    for (const auto& [known, axis] : kAxes) {
+      if (value == known) up = axis;
+    }
+    if (value != "z" && value != "y") failChoice(name, value, {"z", "y"});
+  });
+}
 
 void Calculate::declare(CLI::App& app) {
   addFile(app, "FILE", input_, "a light file (.shlight), or a text of n^2 numbers (grey) or n^2 rows of three");
@@ -106,8 +156,10 @@ void Calculate::declare(CLI::App& app) {
   addChoice<Convention>(app,
                         {"--from", "NAME",
                          "convention of a text: shbake (real, orthonormal, no Condon-Shortley sign, index l(l+1)+m), "
-                         "condon-shortley, or geodesy (4 pi normalised)"},
+                         "condon-shortley, geodesy (4 pi normalised), or hazel (R0, R1 x y z, R2 xx yy zz xy xz yz; "
+                         "three times for colour)"},
                         from_, kConventions);
+  addAxes(app, {"--from-up", "AXIS", "the axis of a text that points up: z or y"}, "z", fromUp_);
   addRepeated(app, {"--turn", "X,Y,Z,DEG", "turn by an angle in degrees about an axis; may be repeated"}, turns_);
   addChoice<std::string>(app, {"--mirror", "AXIS", "then mirror: exchange the sign of x, y or z, or none"}, mirror_,
                          {{"none", "none"}, {"x", "x"}, {"y", "y"}, {"z", "z"}});
@@ -119,35 +171,50 @@ void Calculate::declare(CLI::App& app) {
               order_ = static_cast<int>(parseWhole(name, text, 1, 64));
             });
   addWindow(app, "then damp", window_);
+  addAxes(app,
+          {"--to-up", "AXIS",
+           "then give it for axes of which z or y points up: what lay along +z lies along +y, and the like"},
+          "as it is", toUp_);
   addRepeated(app, {"--at", "X,Y,Z", "tell radiance from, and irradiance at, a direction; may be repeated"},
               directions_);
   addSwitch(app, "--print", print_, "print the coefficients, a row for each");
-  addChoice<Convention>(app, {"--to", "NAME", "convention of --print: shbake, condon-shortley or geodesy"}, to_,
-                        kConventions);
-  addSwitch(app, "--hazel", hazel_, "print mean, vector and matrix of the first three bands (Hazel's form)");
+  addChoice<Convention>(app,
+                        {"--to", "NAME",
+                         "convention of --print: shbake, condon-shortley, geodesy, or hazel (a row of ten numbers a "
+                         "channel for the first three bands, as --from reads them)"},
+                        to_, kConventions);
 }
 
 LightFile Calculate::read(const std::string& path) const {
-  if (fs::path(path).extension() == ".shlight") {
-    if (from_ != Convention::shbake) {
-      throw usageError("--from is for texts of numbers; " + path + " is a light file", "leave --from out");
+  if (isLightFile(path)) {
+    if (from_ != Convention::shbake || fromUp_) {
+      throw usageError("--from and --from-up are for texts of numbers; " + path + " is a light file", "leave them out");
     }
     return readLightFile(path);
   }
+  const std::vector<double> numbers = readNumbers(path);
   LightFile file;
-  file.light = converted(readCoefficients(path), from_, false);
+  file.light = from_ == Convention::hazel ? lightFromHazel(path, numbers)
+                                          : converted(lightFromCoefficients(path, numbers), from_, false);
+  file.up = fromUp_.value_or(UpAxis::z);
   file.sources.push_back(fs::path(path).filename().string() + ": coefficients");
   return file;
 }
 
-void Calculate::multiply() {
-  const LightFile factor = read(factor_);
-  if (factor.up != file_.up) {
-    throw Error({.file = factor_,
-                 .place = "field \"axes\"",
-                 .cause = "is not that of " + input_,
-                 .remedy = "turn one of them"});
+/// The file's light for axes of which `up` points up.
+LightFile inAxes(LightFile file, UpAxis up) {
+  if (file.up == up) return file;
+  for (int c = 0; c < 3; ++c) {
+    std::vector<double> values = file.light.channel(c);
+    up == UpAxis::y ? sh::toYUp(file.light.order, values) : sh::fromYUp(file.light.order, values);
+    file.light.setChannel(c, values);
   }
+  file.up = up;
+  return file;
+}
+
+void Calculate::multiply() {
+  const LightFile factor = inAxes(read(factor_), file_.up);
   const Light &a = file_.light, &b = factor.light;
   const int order = order_ > 0 ? order_ : a.order;
   const sh::TripleProduct product(order, a.order, b.order);
@@ -173,9 +240,11 @@ void Calculate::calculate(Session& session) {
   }
   if (!factor_.empty()) multiply();
   if (order_ > 0) file_.light = withOrder(file_.light, order_);
-  if (window_ == sh::Window::none) return;
-  describeWindow(window_, applyWindow(window_, {&file_.light, 1}), session.report);
-  file_.sources.push_back("window " + std::string(sh::windowName(window_)));
+  if (window_ != sh::Window::none) {
+    describeWindow(window_, applyWindow(window_, {&file_.light, 1}), session.report);
+    file_.sources.push_back("window " + std::string(sh::windowName(window_)));
+  }
+  if (toUp_) file_ = inAxes(file_, *toUp_);
 }
 
 void Calculate::describeDirections(Report& report) const {
@@ -193,21 +262,19 @@ void Calculate::describeDirections(Report& report) const {
 }
 
 void Calculate::printHazel(Report& report) const {
-  if (!hazel_) return;
   const Light nine = withOrder(file_.light, 3);
   const char* names[] = {"red", "green", "blue"};
   for (int c = 0; c < 3; ++c) {
-    const sh::HazelLight h = sh::toHazel(nine.channel(c));
-    report.data(std::string("hazel.") + names[c],
-                std::vector<double>{h.r0, h.r1.x, h.r1.y, h.r1.z, h.xx, h.yy, h.zz, h.xy, h.xz, h.yz});
-    report.line(std::string("hazel ") + names[c], "R0 " + formatNumber(h.r0, 6) + ", R1 " + vectorText(h.r1) +
-                                                      ", R2 xx yy zz " + vectorText({h.xx, h.yy, h.zz}) + " xy xz yz " +
-                                                      vectorText({h.xy, h.xz, h.yz}));
+    const std::vector<double> numbers = hazelNumbers(sh::toHazel(nine.channel(c)));
+    std::string text;
+    for (const double n : numbers) text += (text.empty() ? "" : " ") + formatNumber(n);
+    report.fact(std::string("hazel.") + names[c], numbers, std::string("hazel ") + names[c], text);
   }
 }
 
-void Calculate::printCoefficients(Report& report) const {
+void Calculate::print(Report& report) const {
   if (!print_) return;
+  if (to_ == Convention::hazel) return printHazel(report);
   const Light light = converted(file_.light, to_, true);
   std::vector<double> all;
   for (int i = 0; i < sh::coefficientCount(light.order); ++i) {
@@ -222,20 +289,14 @@ void Calculate::printCoefficients(Report& report) const {
 void Calculate::run(Session& session) {
   if (input_.empty()) throw usageError("no file is named", "usage: shbake sh FILE [OPTIONS]");
   if (!output_.empty()) {
-    if (fs::path(output_).extension() != ".shlight") {
-      throw Error({.kind = ErrorKind::usage,
-                   .file = output_,
-                   .cause = "is not named as a light file",
-                   .remedy = "name it .shlight"});
-    }
+    requireLightFileName(output_);
     checkWritable(output_);
   }
   file_ = read(input_);
   calculate(session);
   describeLight(file_.light, session.report);
   describeDirections(session.report);
-  printHazel(session.report);
-  printCoefficients(session.report);
+  print(session.report);
   if (output_.empty()) return;
   writeLightFile(output_, file_);
   session.report.fact("output.file", output_, "output", output_);
@@ -246,14 +307,16 @@ void Calculate::run(Session& session) {
 extern const VerbEntry shVerb;
 const VerbEntry shVerb{
     "sh", "FILE", "calculate with spherical-harmonic coefficients",
-    "Reads a light file or a list of coefficients, turns, mirrors, multiplies, cuts and windows it in this order, and "
-    "tells its energy by band, its least and greatest value, and its direction. 'shbake light' projects maps and "
+    "Reads a light file or a list of coefficients in one of several conventions, turns, mirrors, multiplies, cuts and "
+    "windows it in this order, and tells its energy by band, its least and greatest value, and its direction. 'shbake "
+    "light' projects maps and "
     "skies.\n"
     "\n"
     "Examples:\n"
     "  shbake sh room.shlight --at 0,0,1 --print\n"
     "  shbake sh room.shlight --turn 0,0,1,90 --window auto -o turned.shlight\n"
-    "  shbake sh list.txt --from condon-shortley -o light.shlight",
+    "  shbake sh list.txt --from condon-shortley --from-up y --to-up z -o light.shlight\n"
+    "  shbake sh room.shlight --print --to hazel",
     [] { return std::unique_ptr<Verb>(std::make_unique<Calculate>()); }};
 
 }  // namespace shbake::cli

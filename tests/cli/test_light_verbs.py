@@ -127,6 +127,51 @@ class LightVerbs(unittest.TestCase):
         self.assertEqual(self.report("sh", "list.txt", "--mirror", "z", "--print")["coefficients"][::3],
                          [1, 0.5, -0.25, -0.125])
 
+    def test_hazels_form_goes_both_ways(self):
+        # Radiance 2 + x: mean 2, mean of R d = (1/3, 0, 0). Its irradiance over pi at +x is R0 + 2 R1 = 2 + 2/3.
+        (self.folder / "grey.txt").write_text("2  0.3333333333333333 0 0  0 0 0 0 0 0\n")
+        told = self.report("sh", "grey.txt", "--from", "hazel", "--at", "1,0,0", "--at", "0,-1,0", "-o", self.out)
+        self.assert_close(told["at"][0]["radiance"], [3] * 3)
+        self.assert_close(told["at"][1]["radiance"], [2] * 3)
+        self.assert_close(told["at"][0]["irradiance"], [math.pi * (2 + 2 / 3)] * 3)
+        # Three channels of which each points another way: radiance 1 + 3 R1.d + 15/2 d.R2 d.
+        rows = [[1, 0, 0.1, 0, 0.02, -0.03, 0.01, 0, 0, 0], [1, 0, 0, 0.2, 0, 0, 0, 0.04, 0, 0],
+                [1, 0.3, 0, 0, 0, 0, 0, 0, 0.05, -0.06]]
+        (self.folder / "rgb.txt").write_text("\n".join(" ".join(map(str, row)) for row in rows))
+        for d in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (0.6, 0.8, 0), (0, 0.6, -0.8), (-0.8, 0, 0.6)):
+            told = self.report("sh", "rgb.txt", "--from", "hazel", "--at", ",".join(map(str, d)))
+            x, y, z = d
+            expected = [r[0] + 3 * (r[1] * x + r[2] * y + r[3] * z) + 7.5 * (r[4] * x * x + r[5] * y * y + r[6] * z * z +
+                        2 * (r[7] * x * y + r[8] * x * z + r[9] * y * z)) for r in rows]
+            self.assert_close(told["at"][0]["radiance"], expected)
+        back = self.report("sh", "rgb.txt", "--from", "hazel", "--print", "--to", "hazel")["hazel"]
+        for name, row in zip(("red", "green", "blue"), rows):
+            self.assert_close(back[name], row)
+        (self.folder / "trace.txt").write_text("1 0 0 0 0.1 0 0 0 0 0")
+        result = self.run_program("sh", "trace.txt", "--from", "hazel")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("R2", result.stderr)
+
+    def test_axes_are_read_and_written(self):
+        # Radiance 1 + z + x / 2 where z points up, and the same scene where y does: 1 + y + x / 2.
+        norm = math.sqrt(4 * math.pi)
+        c0, c1 = norm, norm / math.sqrt(3)
+        (self.folder / "z.txt").write_text(f"{c0!r} 0 {c1!r} {c1 / 2!r}")
+        (self.folder / "y.txt").write_text(f"{c0!r} {c1!r} 0 {c1 / 2!r}")
+        for source, options in (("y.txt", ["--from-up", "y", "--to-up", "z"]), ("z.txt", ["--to-up", "z"]),
+                                ("z.txt", [])):
+            told = self.report("sh", source, *options, "--at", "0,0,1", "--at", "1,0,0", "--at", "0,1,0")
+            self.assert_close([at["radiance"][0] for at in told["at"]], [2, 1.5, 1])
+        told = self.report("sh", "z.txt", "--to-up", "y", "--at", "0,1,0", "--at", "0,0,1", "-o", self.out)
+        self.assert_close([at["radiance"][0] for at in told["at"]], [2, 1])
+        self.assertEqual(json.loads(self.out.read_text())["axes"], "y-up")
+        told = self.report("sh", self.out, "--to-up", "z", "--print")
+        self.assert_close(told["coefficients"][::3], [c0, 0, c1, c1 / 2])
+        # A factor in other axes is turned to those of the first file: (1 + z)^2 at the top is 4 of 1 + z there.
+        square = self.report("sh", "z.txt", "--multiply", self.out, "--order", 3, "--at", "0,0,1")
+        self.assert_close(square["at"][0]["radiance"], [4] * 3)
+        self.assertEqual(self.run_program("sh", self.out, "--from-up", "y").returncode, 2)
+
     def test_products_are_of_functions(self):
         y00 = 1 / math.sqrt(4 * math.pi)
         (self.folder / "z.txt").write_text("0 0 1 0")

@@ -11,6 +11,7 @@
 #include "base/hash.h"
 #include "base/vec3.h"
 #include "sh/basis.h"
+#include "sh/matrix3.h"
 
 namespace shbake::sh::testing {
 
@@ -33,6 +34,15 @@ inline std::vector<double> basisAt(int order, const Vec3d& d) {
   std::vector<double> y(coefficientCount(order));
   evaluate(order, d, y);
   return y;
+}
+
+/// The largest difference of two entries.
+inline double difference(const Matrix3d& a, const Matrix3d& b) {
+  double largest = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) largest = std::max(largest, std::abs(a(i, j) - b(i, j)));
+  }
+  return largest;
 }
 
 /// The value of a coefficient vector in a direction, as a plain sum.

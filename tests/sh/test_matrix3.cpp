@@ -10,18 +10,6 @@ using namespace shbake;
 using namespace shbake::sh;
 using namespace shbake::sh::testing;
 
-namespace {
-
-double difference(const Matrix3d& a, const Matrix3d& b) {
-  double largest = 0;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) largest = std::max(largest, std::abs(a(i, j) - b(i, j)));
-  }
-  return largest;
-}
-
-}  // namespace
-
 TEST_CASE("rotations about the axes turn the next axis towards the one after it") {
   REQUIRE(length(rotationAboutX(kPi / 2) * Vec3d{0, 1, 0} - Vec3d{0, 0, 1}) < 1e-15);
   REQUIRE(length(rotationAboutY(kPi / 2) * Vec3d{0, 0, 1} - Vec3d{1, 0, 0}) < 1e-15);

@@ -24,14 +24,6 @@ Matrix3d matrixOf(const EulerZyz& e) {
   return z(e.alpha) * y * z(e.gamma);
 }
 
-double difference(const Matrix3d& a, const Matrix3d& b) {
-  double largest = 0;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) largest = std::max(largest, std::abs(a(i, j) - b(i, j)));
-  }
-  return largest;
-}
-
 }  // namespace
 
 TEST_CASE("Euler angles give their matrix back, at and near both poles") {
