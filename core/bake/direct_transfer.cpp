@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 
+#include "base/wide.h"
 #include "sh/basis.h"
 
 namespace shbake {
@@ -16,8 +17,8 @@ constexpr std::size_t kChunk = 64;
 /// Adds the visible directions of groups first..last-1 to `total`. S is the table's stride, known to the compiler so
 /// that the running sums stay in registers. Groups that are wholly visible or mostly so start from their stored sum.
 template <std::size_t S>
-void addGroups(const DirectionSet& set, std::span<const std::uint16_t> sky, std::size_t first, std::size_t last,
-               double* total) {
+[[gnu::always_inline]] inline void addGroups(const DirectionSet& set, std::span<const std::uint16_t> sky,
+                                             std::size_t first, std::size_t last, double* total) {
   std::array<float, S> sum{};
   for (std::size_t g = first; g < last; ++g) {
     unsigned bits = sky[g];
@@ -51,27 +52,33 @@ void addGroupsWide(const DirectionSet& set, std::span<const std::uint16_t> sky, 
   }
 }
 
-using AddGroups = void (*)(const DirectionSet&, std::span<const std::uint16_t>, std::size_t, std::size_t, double*);
-
-AddGroups chooseKernel(std::size_t stride) {
-  switch (stride) {
-    case 4:
-      return addGroups<4>;  // orders 1, 2
-    case 12:
-      return addGroups<12>;  // order 3
+/// addGroups() for the table's stride.
+SHBAKE_WIDE void addGroupsOf(const DirectionSet& set, std::span<const std::uint16_t> sky, std::size_t first,
+                             std::size_t last, double* total) {
+  switch (set.stride()) {
+    case 4:  // orders 1, 2
+      return addGroups<4>(set, sky, first, last, total);
+    case 12:  // order 3
+      return addGroups<12>(set, sky, first, last, total);
     case 16:
-      return addGroups<16>;
+      return addGroups<16>(set, sky, first, last, total);
     case 28:
-      return addGroups<28>;
+      return addGroups<28>(set, sky, first, last, total);
     case 36:
-      return addGroups<36>;
+      return addGroups<36>(set, sky, first, last, total);
     case 52:
-      return addGroups<52>;
-    case 64:
-      return addGroups<64>;  // order 8
+      return addGroups<52>(set, sky, first, last, total);
+    case 64:  // order 8
+      return addGroups<64>(set, sky, first, last, total);
     default:
-      return addGroupsWide;
+      return addGroupsWide(set, sky, first, last, total);
   }
+}
+
+SHBAKE_WIDE int countVisible(std::span<const std::uint16_t> sky) {
+  int visible = 0;
+  for (const std::uint16_t mask : sky) visible += std::popcount(mask);
+  return visible;
 }
 
 }  // namespace
@@ -83,16 +90,13 @@ DirectTransfer::DirectTransfer(const DirectionSet& directions)
       world_(static_cast<std::size_t>(sh::coefficientCount(directions.order()))) {}
 
 double DirectTransfer::visibility(std::span<const std::uint16_t> sky) const {
-  int visible = 0;
-  for (const std::uint16_t mask : sky) visible += std::popcount(mask);
-  return static_cast<double>(visible) / directions_.size();
+  return static_cast<double>(countVisible(sky)) / directions_.size();
 }
 
 void DirectTransfer::sum(std::span<const std::uint16_t> sky) {
-  const AddGroups add = chooseKernel(directions_.stride());
   std::fill(local_.begin(), local_.end(), 0.0);
   for (std::size_t first = 0; first < sky.size(); first += kChunk) {
-    add(directions_, sky, first, std::min(first + kChunk, sky.size()), local_.data());
+    addGroupsOf(directions_, sky, first, std::min(first + kChunk, sky.size()), local_.data());
   }
 }
 

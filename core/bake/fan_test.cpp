@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/wide.h"
+
 namespace shbake {
 namespace {
 
@@ -64,7 +66,7 @@ void FanTest::addArc(std::uint32_t face, int from, int to, std::uint32_t p, std:
     if (side == kNone || isOwn(face, p)) side = face;
     return;
   }
-  arcs_.push_back({face, kNone, from, to, {}, true});
+  arcs_.push_back({face, kNone, from, to, {}, true, true});
   ++edges_[static_cast<std::size_t>(from)].uses;
   ++edges_[static_cast<std::size_t>(to)].uses;
 }
@@ -149,26 +151,40 @@ void FanTest::orient(const Vec3d& start) {
   }
 }
 
-float FanTest::highestPoint(const Vec3d& start, const Vec3d& normal) const {
-  double highest = 0;
+float FanTest::findHighest(const Vec3d& start, const Vec3d& normal) {
   // The top of a minor arc is one of its ends, or the top of its great circle where that lies between them.
-  const auto raise = [&](const Vec3d& a, const Vec3d& b) {
-    highest = std::max({highest, dot(a, normal), dot(b, normal)});
+  const auto topOf = [&](const Vec3d& a, const Vec3d& b) {
+    const double ends = std::max(dot(a, normal), dot(b, normal));
     const Vec3d c = cross(a, b);
     const double cc = dot(c, c);
-    if (cc == 0) return;
+    if (cc == 0) return ends;
     const Vec3d top = normal - c * (dot(c, normal) / cc);
-    if (dot(cross(a, top), c) > 0 && dot(cross(top, b), c) > 0) highest = std::max(highest, length(top));
+    return dot(cross(a, top), c) > 0 && dot(cross(top, b), c) > 0 ? std::max(ends, length(top)) : ends;
   };
-  for (const Arc& arc : arcs_) {
-    raise(edges_[static_cast<std::size_t>(arc.from)].direction, edges_[static_cast<std::size_t>(arc.to)].direction);
+  double highest = 0;
+  for (Arc& arc : arcs_) {
+    const double top =
+        topOf(edges_[static_cast<std::size_t>(arc.from)].direction, edges_[static_cast<std::size_t>(arc.to)].direction);
+    arc.rises = top > static_cast<double>(kFlat);
+    highest = std::max(highest, top);
   }
-  if (highest <= kFlat) return 0;
+  if (highest <= static_cast<double>(kFlat)) return 0;
   // Where the fan is open, crossings also change across the arc from its border to the point opposite the start.
   for (const Edge& e : edges_) {
-    if (e.uses % 2 != 0) raise(e.direction, -start);
+    if (e.uses % 2 != 0) highest = std::max(highest, topOf(e.direction, -start));
   }
   return static_cast<float>(highest) + kFlat;
+}
+
+void FanTest::keepRisingArcs() {
+  std::size_t kept = 0, k = 0;
+  for (std::size_t& end : surfaceEnds_) {
+    for (; k < end; ++k) {
+      if (arcs_[k].rises) arcs_[kept++] = arcs_[k];
+    }
+    end = kept;
+  }
+  arcs_.resize(kept);
 }
 
 void FanTest::setPoint(std::uint32_t p) {
@@ -181,19 +197,20 @@ void FanTest::setPoint(std::uint32_t p) {
   const Arc* own = chooseStart(p, normal, start);
   if (own == nullptr) return;
   addContacts(p, own->face, start);
-  height_ = highestPoint(start, normal);
+  height_ = findHighest(start, normal);
   if (height_ == 0) return;
+  // From a start above the tangent plane to a direction above it, no arc that stays below is crossed.
+  if (dot(start, normal) >= 0) keepRisingArcs();
   orient(start);
   std::array<float, 16> x, y, z;
   x.fill(points_.pointNormal[p].x);
   y.fill(points_.pointNormal[p].y);
   z.fill(points_.pointNormal[p].z);
-  std::array<std::uint32_t, 16> ignored;
-  zenithBlocked_ = (blocked(x.data(), y.data(), z.data(), ignored.data()) & 1) != 0;
+  zenithBlocked_ = (blocked(x.data(), y.data(), z.data(), nullptr) & 1) != 0;
 }
 
-std::uint32_t FanTest::crossedOddly(std::size_t firstArc, std::size_t endArc, const float* x, const float* y,
-                                    const float* z, std::uint32_t* faces) const {
+SHBAKE_WIDE std::uint32_t FanTest::crossedOddly(std::size_t firstArc, std::size_t endArc, const float* x,
+                                                const float* y, const float* z, std::uint32_t* faces) const {
   std::array<std::int32_t, 16> odd{};
   std::array<std::uint32_t, 16> last{};
   for (std::size_t k = firstArc; k < endArc; ++k) {
@@ -209,16 +226,14 @@ std::uint32_t FanTest::crossedOddly(std::size_t firstArc, std::size_t endArc, co
       const bool behind = c.x * x[i] + c.y * y[i] + c.z * z[i] < 0;
       crossed[i] = static_cast<std::int32_t>(pastFrom & !pastTo & behind);
     }
-    for (std::size_t i = 0; i < 16; ++i) {
-      odd[i] ^= crossed[i];
-      last[i] = crossed[i] != 0 ? arc.face : last[i];
-    }
+    for (std::size_t i = 0; i < 16; ++i) odd[i] ^= crossed[i];
+    if (faces == nullptr) continue;
+    for (std::size_t i = 0; i < 16; ++i) last[i] = crossed[i] != 0 ? arc.face : last[i];
   }
   std::uint32_t mask = 0;
-  for (unsigned i = 0; i < 16; ++i) {
-    mask |= static_cast<std::uint32_t>(odd[i]) << i;
-    faces[i] = odd[i] != 0 ? last[i] : faces[i];
-  }
+  for (unsigned i = 0; i < 16; ++i) mask |= static_cast<std::uint32_t>(odd[i]) << i;
+  if (faces == nullptr) return mask;
+  for (std::size_t i = 0; i < 16; ++i) faces[i] = odd[i] != 0 ? last[i] : faces[i];
   return mask;
 }
 

@@ -32,10 +32,10 @@ class FanTest {
   bool blocksZenith() const { return zenithBlocked_; }
 
   /// Tests 16 directions (world axes, any length). Returns a bit for each blocked one; for those, faces[i] becomes the
-  /// face that blocks.
+  /// face that blocks, unless `faces` is null.
   std::uint32_t blocked(const float* x, const float* y, const float* z, std::uint32_t* faces) const;
 
-  /// Whether the point lies on the front of a touching face: then the face reflects towards it.
+  /// Whether the point lies on the front of a face that blocks: then the face reflects towards it.
   bool facesFront(std::uint32_t face) const;
 
  private:
@@ -51,6 +51,7 @@ class FanTest {
     int from, to;        // edges, ordered so that s lies on the positive side of from x to
     Vec3f plane;         // normal of the face's plane on the side of s, any length
     bool front;          // s is on the front of the face
+    bool rises;          // above the tangent plane
   };
 
   bool risesAboveTangentPlane(std::uint32_t p) const;
@@ -65,7 +66,8 @@ class FanTest {
   bool isCovered(std::uint32_t face, const Vec3d& direction, const Contact& by) const;
   const Arc* chooseStart(std::uint32_t p, const Vec3d& normal, Vec3d& start) const;
   void orient(const Vec3d& start);
-  float highestPoint(const Vec3d& start, const Vec3d& normal) const;
+  float findHighest(const Vec3d& start, const Vec3d& normal);
+  void keepRisingArcs();
   std::uint32_t crossedOddly(std::size_t firstArc, std::size_t endArc, const float* x, const float* y, const float* z,
                              std::uint32_t* faces) const;
 

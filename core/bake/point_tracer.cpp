@@ -37,7 +37,7 @@ double PointTracer::spin(std::uint32_t point) const {
   return 2 * std::numbers::pi * hashUnit(seed_, point);
 }
 
-void PointTracer::testFan(const RayScene::Rays& rays, int firstGroup) {
+void PointTracer::testFan(const RayScene::Rays& rays, int firstGroup, bool findFaces) {
   for (int g = 0; g < rays.groups; ++g) {
     const auto i = static_cast<std::size_t>(g);
     // Groups above the whole fan need no test, unless their answer is "blocked" and asks for a face.
@@ -46,7 +46,8 @@ void PointTracer::testFan(const RayScene::Rays& rays, int firstGroup) {
     if (!above) {
       std::array<float, kGroup> x, y, z;
       rays.turn(g, x.data(), y.data(), z.data());
-      fanMask_[i] = static_cast<std::uint16_t>(fan_.blocked(x.data(), y.data(), z.data(), &fanFaces_[i * kGroup]));
+      fanMask_[i] = static_cast<std::uint16_t>(
+          fan_.blocked(x.data(), y.data(), z.data(), findFaces ? &fanFaces_[i * kGroup] : nullptr));
     }
     active_[i] = static_cast<std::uint16_t>(kAll & ~fanMask_[i]);
   }
@@ -62,7 +63,7 @@ Hit PointTracer::hitOnFan(std::uint32_t face, std::uint32_t position) const {
 }
 
 template <class Trace>
-void PointTracer::forChunks(std::uint32_t point, std::span<std::uint16_t> sky, const Trace& trace) {
+void PointTracer::forChunks(std::uint32_t point, std::span<std::uint16_t> sky, bool findFaces, const Trace& trace) {
   const Vec3d normal(points_.pointNormal[point]);
   const sh::LocalFrame frame = sh::localFrame(normal, spin(point));
   fan_.setPoint(point);
@@ -78,7 +79,7 @@ void PointTracer::forChunks(std::uint32_t point, std::span<std::uint16_t> sky, c
                               Vec3f(frame.y),
                               Vec3f(frame.z),
                               active_.data()};
-    testFan(rays, first);
+    testFan(rays, first, findFaces);
     trace(rays);
     for (int g = 0; g < groups; ++g) {
       const auto i = static_cast<std::size_t>(g);
@@ -88,12 +89,12 @@ void PointTracer::forChunks(std::uint32_t point, std::span<std::uint16_t> sky, c
 }
 
 void PointTracer::look(std::uint32_t point, std::span<std::uint16_t> sky) {
-  forChunks(point, sky, [&](const RayScene::Rays& rays) { scene_.occluded(rays, *buffers_, blocked_.data()); });
+  forChunks(point, sky, false, [&](const RayScene::Rays& rays) { scene_.occluded(rays, *buffers_, blocked_.data()); });
 }
 
 void PointTracer::lookForHits(std::uint32_t point, std::span<std::uint16_t> sky, std::vector<Hit>& hits) {
   const std::uint32_t position = points_.pointPosition[point];
-  forChunks(point, sky, [&](const RayScene::Rays& rays) {
+  forChunks(point, sky, true, [&](const RayScene::Rays& rays) {
     scene_.closest(rays, *buffers_, blocked_.data(), front_.data(), chunkHits_.data());
     for (int g = 0; g < rays.groups; ++g) {
       const auto i = static_cast<std::size_t>(g);

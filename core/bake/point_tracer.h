@@ -31,8 +31,8 @@ class PointTracer {
 
  private:
   template <class Trace>
-  void forChunks(std::uint32_t point, std::span<std::uint16_t> sky, const Trace& trace);
-  void testFan(const RayScene::Rays& rays, int firstGroup);
+  void forChunks(std::uint32_t point, std::span<std::uint16_t> sky, bool findFaces, const Trace& trace);
+  void testFan(const RayScene::Rays& rays, int firstGroup, bool findFaces);
   Hit hitOnFan(std::uint32_t face, std::uint32_t position) const;
 
   const LightingPoints& points_;

@@ -38,8 +38,9 @@ constexpr double kProductRounding = 16 * 0x1p-24;
 struct FilterData {
   const Triangle* faces = nullptr;
   const Vec3f* positions = nullptr;
-  double contact = 0, suspect = 0;  // distances to a plane, in work units
-  double product = 0;               // error of such a distance times twice a face's area
+  double contact = 0;  // distance to a plane, in work units
+  float suspect2 = 0;  // square of the greater one within which a hit is looked at
+  float product = 0;   // error of such a distance times twice a face's area
 };
 
 float longestEdge(const LightingPoints& points) {
@@ -62,19 +63,18 @@ bool inContact(const FilterData& data, const Triangle& t, const Vec3f& origin) {
 
 /// Rejects hits on faces that touch the ray's own position, whose id every ray carries: those that share it, and those
 /// that it lies on without sharing it. Both kinds are met near their plane, which most hits are not: these pass without
-/// a look at the face.
+/// a look at the face, by float arithmetic whose error is nothing beside the bounds.
 void leaveOutOwnFaces(const RTCFilterFunctionNArguments* args) {
   const auto& data = *static_cast<const FilterData*>(args->geometryUserPtr);
   const unsigned n = args->N;
   for (unsigned i = 0; i < n; ++i) {
     if (args->valid[i] != -1) continue;
-    const Vec3d normal(
-        Vec3f(RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i), RTCHitN_Ng_z(args->hit, n, i)));
-    const Vec3d direction(
-        Vec3f(RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i), RTCRayN_dir_z(args->ray, n, i)));
-    const double height = std::abs(dot(normal, direction) * static_cast<double>(RTCRayN_tfar(args->ray, n, i)));
-    const double beyond = height - data.product;
-    if (beyond > 0 && beyond * beyond > data.suspect * data.suspect * dot(normal, normal)) continue;
+    const Vec3f normal(RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i), RTCHitN_Ng_z(args->hit, n, i));
+    const Vec3f direction(RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i),
+                          RTCRayN_dir_z(args->ray, n, i));
+    const float height = std::abs(dot(normal, direction) * RTCRayN_tfar(args->ray, n, i));
+    const float beyond = height - data.product;
+    if (beyond > 0 && beyond * beyond > data.suspect2 * dot(normal, normal)) continue;
     const Triangle& t = data.faces[RTCHitN_primID(args->hit, n, i)];
     const unsigned position = RTCRayN_id(args->ray, n, i);
     const bool shared = t[0] == position || t[1] == position || t[2] == position;
@@ -128,7 +128,6 @@ class RayScene::Buffers {
   alignas(64) std::array<RTCRay, kMaxGroups * 16> shadowStream;
   alignas(64) std::array<RTCRayHit, kMaxGroups * 16> hitStream;
   alignas(64) RTCRayHit16 packet;
-  std::array<std::uint16_t, kMaxGroups * 16> slot;  // the ray behind each entry of a stream
 };
 
 void RayScene::BuffersDeleter::operator()(Buffers* buffers) const {
@@ -150,8 +149,8 @@ RayScene::RayScene(const LightingPoints& points, float maxDistance, const Parall
   s.positions.reserve(points.positions.size() + 1);
   s.positions = points.positions;
   s.positions.emplace_back();
-  s.filter = {points.faces.data(), s.positions.data(), contact, kSuspect * contact,
-              kProductRounding * std::pow(static_cast<double>(longestEdge(points)), 3)};
+  s.filter = {points.faces.data(), s.positions.data(), contact, static_cast<float>(std::pow(kSuspect * contact, 2)),
+              static_cast<float>(kProductRounding * std::pow(static_cast<double>(longestEdge(points)), 3))};
 
   s.twins = faceTwins(points, progress);
 
@@ -230,27 +229,42 @@ RTCRay& rayOf(RTCRayHit& entry) {
 using Quad [[gnu::vector_size(16)]] = float;
 static_assert(offsetof(RTCRay, dir_x) == sizeof(Quad) && offsetof(RTCRay, tfar) == 2 * sizeof(Quad));
 
-/// Fills a stream with the active rays; returns how many there are.
-template <class Stream, class Slots>
-unsigned fillStream(Stream& stream, Slots& slots, const RayScene::Rays& rays, const Vec3f& origin, float near,
-                    float far) {
+/// Calls visit(k) for every active ray, in order.
+template <class Visit>
+void forActive(const RayScene::Rays& rays, const Visit& visit) {
+  for (int g = 0; g < rays.groups; ++g) {
+    const std::size_t first = static_cast<std::size_t>(g) * 16;
+    if (rays.active[g] == 0xFFFF) {
+      for (std::size_t i = 0; i < 16; ++i) visit(first + i);
+      continue;
+    }
+    for (unsigned bits = rays.active[g]; bits != 0; bits &= bits - 1) {
+      visit(first + static_cast<unsigned>(std::countr_zero(bits)));
+    }
+  }
+}
+
+/// Fills a stream with the active rays in order; returns how many there are.
+template <class Stream>
+unsigned fillStream(Stream& stream, const RayScene::Rays& rays, const Vec3f& origin, float near, float far) {
   const auto quad = [](const Vec3f& v, float w) { return Quad{v.x, v.y, v.z, w}; };
   const Quad x = quad(rays.axisX, 0), y = quad(rays.axisY, 0), z = quad(rays.axisZ, 0);
   const Quad head = quad(origin, near);
   const Quad tail{far, std::bit_cast<float>(~0u), std::bit_cast<float>(rays.position), 0};
   unsigned n = 0;
-  for (int g = 0; g < rays.groups; ++g) {
-    for (unsigned bits = rays.active[g]; bits != 0; bits &= bits - 1) {
-      const auto k = static_cast<std::size_t>(g) * 16 + static_cast<unsigned>(std::countr_zero(bits));
-      RTCRay& ray = rayOf(stream[n]);
-      const Quad direction = x * rays.x[k] + y * rays.y[k] + z * rays.z[k];
-      std::memcpy(&ray.org_x, &head, sizeof head);
-      std::memcpy(&ray.dir_x, &direction, sizeof direction);
-      std::memcpy(&ray.tfar, &tail, sizeof tail);
-      slots[n++] = static_cast<std::uint16_t>(k);
-    }
-  }
+  forActive(rays, [&](std::size_t k) {
+    RTCRay& ray = rayOf(stream[n++]);
+    const Quad direction = x * rays.x[k] + y * rays.y[k] + z * rays.z[k];
+    std::memcpy(&ray.org_x, &head, sizeof head);
+    std::memcpy(&ray.dir_x, &direction, sizeof direction);
+    std::memcpy(&ray.tfar, &tail, sizeof tail);
+  });
   return n;
+}
+
+/// Bit `i` where a ray was found occluded: Embree then sets tfar to -inf.
+unsigned occludedBit(const RTCRay& ray, unsigned i) {
+  return std::bit_cast<std::uint32_t>(ray.tfar) >> 31 << i;
 }
 
 }  // namespace
@@ -272,11 +286,19 @@ void RayScene::occluded(const Rays& rays, Buffers& buffers, std::uint16_t* hit) 
   rtcInitIntersectContext(&context);
   std::fill_n(hit, rays.groups, std::uint16_t(0));
   if (!s.packets) {
-    const unsigned n = fillStream(buffers.shadowStream, buffers.slot, rays, origin, s.near, s.far);
+    const unsigned n = fillStream(buffers.shadowStream, rays, origin, s.near, s.far);
     rtcOccluded1M(s.scene, &context, buffers.shadowStream.data(), n, sizeof(RTCRay));
-    for (unsigned i = 0; i < n; ++i) {
-      const bool blocked = buffers.shadowStream[i].tfar < 0;
-      hit[buffers.slot[i] / 16] |= static_cast<std::uint16_t>(blocked << (buffers.slot[i] % 16));
+    const RTCRay* ray = buffers.shadowStream.data();
+    for (int g = 0; g < rays.groups; ++g) {
+      unsigned mask = 0;
+      if (rays.active[g] == 0xFFFF) {
+        for (unsigned i = 0; i < 16; ++i) mask |= occludedBit(*ray++, i);
+      } else {
+        for (unsigned bits = rays.active[g]; bits != 0; bits &= bits - 1) {
+          mask |= occludedBit(*ray++, static_cast<unsigned>(std::countr_zero(bits)));
+        }
+      }
+      hit[g] = static_cast<std::uint16_t>(mask);
     }
     return;
   }
@@ -308,15 +330,15 @@ void RayScene::closest(const Rays& rays, Buffers& buffers, std::uint16_t* hit, s
     if (towards < 0 || isTwin) front[k / 16] |= bit;
   };
   if (!s.packets) {
-    const unsigned n = fillStream(buffers.hitStream, buffers.slot, rays, origin, s.near, s.far);
+    const unsigned n = fillStream(buffers.hitStream, rays, origin, s.near, s.far);
     for (unsigned i = 0; i < n; ++i) buffers.hitStream[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1M(s.scene, &context, buffers.hitStream.data(), n, sizeof(RTCRayHit));
-    for (unsigned i = 0; i < n; ++i) {
-      const RTCHit& h = buffers.hitStream[i].hit;
-      const RTCRay& r = buffers.hitStream[i].ray;
-      if (h.geomID == RTC_INVALID_GEOMETRY_ID) continue;
-      take(buffers.slot[i], h.primID, h.u, h.v, h.Ng_x * r.dir_x + h.Ng_y * r.dir_y + h.Ng_z * r.dir_z);
-    }
+    const RTCRayHit* entry = buffers.hitStream.data();
+    forActive(rays, [&](std::size_t k) {
+      const auto& [r, h] = *entry++;
+      if (h.geomID == RTC_INVALID_GEOMETRY_ID) return;
+      take(k, h.primID, h.u, h.v, h.Ng_x * r.dir_x + h.Ng_y * r.dir_y + h.Ng_z * r.dir_z);
+    });
     return;
   }
   RTCRay16& r = buffers.packet.ray;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/passes.h"
+#include "base/wide.h"
 #include "sh/irradiance.h"
 
 namespace shbake {
@@ -31,7 +32,7 @@ double cellError(int rays, int order) {
 
 }  // namespace
 
-std::uint32_t boundaryPairs(std::span<const std::uint16_t> sky) {
+SHBAKE_WIDE std::uint32_t boundaryPairs(std::span<const std::uint16_t> sky) {
   int pairs = 0;
   for (const unsigned m : sky) {
     // Bit 4 r + c stands at row r, column c of the group's grid: neighbours in a row, then in a column.
