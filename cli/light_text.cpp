@@ -35,6 +35,21 @@ void describeRange(const Light& light, Report& report) {
   add("max", range.max);
 }
 
+/// Each band's share, of many bands the first ones' and what is left.
+std::string energyText(const std::vector<double>& energies, double total) {
+  constexpr std::size_t kShown = 8;
+  const auto share = [&](double e) { return formatPercent(total > 0 ? e / total : 0); };
+  std::string text;
+  double rest = 0;
+  for (std::size_t l = 0; l < energies.size(); ++l) {
+    if (l < kShown) text += (l == 0 ? "" : ", ") + share(energies[l]);
+    if (l >= kShown) rest += energies[l];
+  }
+  return energies.size() <= kShown
+             ? text
+             : text + ", " + share(rest) + " in the other " + std::to_string(energies.size() - kShown);
+}
+
 }  // namespace
 
 std::vector<double> parseNumbers(const std::string& name, const std::string& text, std::size_t least, std::size_t most,
@@ -126,9 +141,8 @@ void describeLight(const Light& light, Report& report) {
     energies.push_back(e.x + e.y + e.z);
     total += energies.back();
   }
-  std::string shares;
-  for (const double e : energies) shares += (shares.empty() ? "" : ", ") + formatPercent(total > 0 ? e / total : 0);
-  report.fact("band_energy", energies, "energy", shares + " by band, of " + formatNumber(total, 5));
+  report.fact("band_energy", energies, "energy",
+              energyText(energies, total) + " by band, of " + formatNumber(total, 5));
 
   describeRange(light, report);
   const Dominant dominant = dominantDirection(light);

@@ -37,6 +37,13 @@ draw3 columns --light overcast --zenith 0.35,0.5,0.75 --ground 0.2 --sun 45,245 
 divide city 2
 "$shbake" bake -q "$work/city.obj" -o "$work/city.ply" --order 8
 "$shbake" render -q "$work/city.ply" -o "$images/city.png" --light overcast --zenith 0.35,0.5,0.75 --ground 0.2 \
-  --sun 32,245 --sun-irradiance 6,5.3,4.4 --window lanczos --view 190,28 --size 900x480
+  --sun 32,245 --sun-irradiance 6,5.3,4.4 --window lanczos --view 190,28 --size 900x480 --ground-plane 0.2
 
 "$shbake" render -q -o "$images/light.png" --light clear --sun 30,90 --ground 0.2 --order 5 --size 600x300 --exposure -2
+
+# Where the axes of a light lie on a lat-long map: +x red, +y green, +z blue, the other way round paler.
+"$shbake" light -q --disc 1,0,0,25,1,0.1,0.1 --disc 0,1,0,25,0.1,0.9,0.1 --disc 0,0,1,25,0.2,0.3,1 \
+  --disc -1,0,0,25,0.5,0.25,0.25 --disc 0,-1,0,25,0.25,0.5,0.25 --disc 0,0,-1,25,0.25,0.25,0.5 --constant 0.02 \
+  --order 32 --window hann -o "$work/axes.shlight"
+"$shbake" render -q "$work/axes.shlight" -o "$images/orientation.png" --size 600x300 --exposure 0 \
+  --captions '+x red centre   +y green left   +z blue top'
