@@ -211,6 +211,8 @@ void Filters::save(const std::string& path, MeshModel& layer, bool ascii, const 
 
 std::string describeFailure(const std::exception& failure) {
   if (dynamic_cast<const std::bad_alloc*>(&failure) != nullptr) return "there is not enough memory";
+  const auto* error = dynamic_cast<const Error*>(&failure);
+  if (error != nullptr && error->kind() == ErrorKind::cancelled) return "stopped; nothing has been changed";
   return failure.what();
 }
 
