@@ -339,7 +339,7 @@ const VerbEntry lightVerb{
     "  shbake light room.hdr -o room.shlight --window auto\n"
     "  shbake light -o noon.shlight --sky clear --sun 60,180 --ground 0.2\n"
     "  shbake light a.exr@0.7 b.shlight@0.3 -o mixed.shlight --rotate 90\n"
-    "  shbake light --sample 0,0,1.5,hall.hdr --sample 6,0,1.5,porch.hdr -o house.shlight",
+    "  shbake light --sample 0,0,1,hall.hdr --sample 6,0,1,porch.hdr -o all.shlight",
     [] { return std::unique_ptr<Verb>(std::make_unique<MakeLight>()); }};
 
 }  // namespace shbake::cli

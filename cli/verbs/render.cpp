@@ -299,7 +299,8 @@ const VerbEntry renderVerb{
     "\n"
     "Examples:\n"
     "  shbake render bunny.ply --light clear --sun 40,150 -o bunny.png\n"
-    "  shbake render bunny.ply --light probe.exr --background light --ground-plane 0.4 -o scene.png\n"
+    "  shbake render bunny.ply --light probe.exr --background light -o probe.png\n"
+    "  shbake render bunny.ply --light clear --ground-plane 0.4 -o shadow.png\n"
     "  shbake render unshadowed.ply shadowed.ply --light probe.exr -o both.png\n"
     "  shbake render probe.exr --order 4 -o light.png",
     [] { return std::unique_ptr<Verb>(std::make_unique<Render>()); }};
