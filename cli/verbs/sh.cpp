@@ -315,7 +315,7 @@ const VerbEntry shVerb{
     "Examples:\n"
     "  shbake sh room.shlight --at 0,0,1 --print\n"
     "  shbake sh room.shlight --turn 0,0,1,90 --window auto -o turned.shlight\n"
-    "  shbake sh list.txt --from condon-shortley --from-up y --to-up z -o z.shlight\n"
+    "  shbake sh list.txt --from condon-shortley --from-up y -o list.shlight\n"
     "  shbake sh room.shlight --print --to hazel",
     [] { return std::unique_ptr<Verb>(std::make_unique<Calculate>()); }};
 

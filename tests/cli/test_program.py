@@ -138,7 +138,7 @@ class Usage(ProgramTest):
         self.assertIn("bake", verbs)
         # What these name or add is absent unless they are given.
         without_default = {"--help", "--output", "--json", "--blockers", "--disc", "--parallel", "--constant",
-                           "--gradient", "--turn", "--shadow", "--multiply", "--at"}
+                           "--gradient", "--sample", "--turn", "--shadow", "--multiply", "--at"}
         for verb in verbs:
             with self.subTest(verb):
                 result = self.run_program(verb, "--help")
