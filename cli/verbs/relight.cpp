@@ -140,10 +140,14 @@ void Relight::run(Session& session) {
     report.fact("exposure", display_.tone.exposure, "exposure", formatNumber(display_.tone.exposure, 3) + " EV");
   report.data("seconds", seconds);
   if (!light.rig) {
-    const double products = 3.0 * light.order() * light.order() * static_cast<double>(set.size());
-    report.fact("multiply_adds_per_second", products / seconds, "rate",
-                formatShort(products / seconds) + " multiply-adds/s on " + std::to_string(session.parallel.threads()) +
-                    (session.parallel.threads() == 1 ? " thread" : " threads"));
+    const double rate = 3.0 * light.order() * light.order() * static_cast<double>(set.size()) / seconds;
+    report.data("multiply_adds_per_second", rate);
+    // Of small meshes it tells how long threads take to start.
+    if (session.verbose) {
+      const int threads = session.parallel.threads();
+      report.line("rate", formatShort(rate) + " multiply-adds/s on " + std::to_string(threads) +
+                              (threads == 1 ? " thread" : " threads"));
+    }
   }
   report.fact("output.file", output_, "output", output_);
 }
