@@ -89,23 +89,26 @@ class Baker {
 
   void bakeTraced() {
     const float maxDistance = static_cast<float>(options_.maxDistance * points_.frame.scale);
-    const RayScene scene(points_, maxDistance, parallel_, progress_);
+    std::optional<RayScene> scene(std::in_place, points_, maxDistance, parallel_, progress_);
     allocate();
     const bool reflect = options_.kind == TransferKind::interreflected && options_.bounces != 0 && !isBlack();
     const int rays =
-        options_.rays > 0 ? options_.rays : chooseRays(points_, wanted_, scene, options_, parallel_, progress_);
+        options_.rays > 0 ? options_.rays : chooseRays(points_, wanted_, *scene, options_, parallel_, progress_);
     const DirectionSet directions(rays, options_.order);
     result_.rays = directions.size();
     pairs_.assign(points_.size(), 0);
     if (reflect) {
       const std::size_t memory = options_.memory > 0 ? options_.memory : availableMemory() / 2;
-      Reflections reflections(points_, scene, directions, options_.seed, options_.twoSided, memory / 2, parallel_);
+      Reflections reflections(points_, *scene, directions, options_.seed, options_.twoSided, memory / 2, parallel_);
       traceWithHits(reflections, directions);
+      // Its memory is more than the solver takes.
+      if (reflections.forgottenPoints() == 0) scene.reset();
       addReflections(reflections, memory / 2);
       measureRoughness(reflections);
     } else {
-      traceSky(scene, directions);
+      traceSky(*scene, directions);
     }
+    scene.reset();
     result_.transfer.error = statedErrors(points_, pairs_, roughness_, result_.rays, options_.order, progress_);
   }
 

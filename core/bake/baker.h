@@ -27,7 +27,9 @@ struct PointBake {
 
 /// Bakes all points; the stated error figures count those with wanted[p] != 0 only, and points that are not wanted may
 /// be left at zero where nothing depends on them. `wanted` has an entry for each point, or none where all are wanted.
-/// Throws as bakeMesh().
+/// Memory: some 140 bytes a triangle for the BVH and what is found out about the mesh, beside the result and the stored
+/// hits, which options.memory limits; the BVH is freed after tracing unless points have to be traced again
+/// (bench_memory measures it). Throws as bakeMesh().
 PointBake bakePoints(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, const BakeOptions& options,
                      const Parallel& parallel, Progress& progress);
 

@@ -108,7 +108,7 @@ struct RayScene::State {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   const LightingPoints* points = nullptr;
-  std::vector<Vec3f> positions;  // with the padding that Embree reads past the end
+  std::vector<Vec3f> padded;  // a copy of the positions where these have no room behind them
   std::vector<std::uint32_t> twins;
   Contacts contacts;
   FilterData filter;
@@ -146,10 +146,14 @@ RayScene::RayScene(const LightingPoints& points, float maxDistance, const Parall
   // What is hit nearer than this along the ray is nearer than contact in any case.
   s.near = static_cast<float>(kNear * contact);
   s.far = maxDistance;
-  s.positions.reserve(points.positions.size() + 1);
-  s.positions = points.positions;
-  s.positions.emplace_back();
-  s.filter = {points.faces.data(), s.positions.data(), contact, static_cast<float>(std::pow(kSuspect * contact, 2)),
+  // Embree loads positions as four floats, the last one's fourth from behind the array.
+  const bool hasRoom = points.positions.capacity() > points.positions.size();
+  if (!hasRoom) {
+    s.padded.reserve(points.positions.size() + 1);
+    s.padded = points.positions;
+  }
+  const Vec3f* positions = hasRoom ? points.positions.data() : s.padded.data();
+  s.filter = {points.faces.data(), positions, contact, static_cast<float>(std::pow(kSuspect * contact, 2)),
               static_cast<float>(kProductRounding * std::pow(static_cast<double>(longestEdge(points)), 3))};
 
   s.twins = faceTwins(points, progress);
@@ -168,8 +172,8 @@ RayScene::RayScene(const LightingPoints& points, float maxDistance, const Parall
   s.packets = rtcGetDeviceProperty(s.device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
 
   RTCGeometry geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, s.positions.data(), 0,
-                             sizeof(Vec3f), points.positions.size());
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions, 0, sizeof(Vec3f),
+                             points.positions.size());
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, points.faces.data(), 0,
                              sizeof(Triangle), points.faces.size());
   rtcSetGeometryUserData(geometry, &s.filter);

@@ -21,7 +21,8 @@ class Reflections {
   /// Points handled together by one worker.
   static constexpr std::size_t kBlock = 64;
 
-  /// `memoryBudget` in bytes bounds the stored hits. All references must outlive the object.
+  /// `memoryBudget` in bytes bounds the stored hits. All references must outlive the object, but `scene`
+  /// is of no use after trace() when no points were forgotten.
   Reflections(const LightingPoints& points, const RayScene& scene, const DirectionSet& directions, std::uint64_t seed,
               bool twoSided, std::size_t memoryBudget, const Parallel& parallel);
 

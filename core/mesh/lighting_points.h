@@ -41,8 +41,8 @@ struct Albedo {
 /// that neighbours in number are neighbours in space. P positions, N points, F faces, V vertices of the mesh.
 struct LightingPoints {
   WorkFrame frame;
-  std::vector<Vec3f> positions;      ///< P distinct positions in work units
-  std::vector<Triangle> faces;       ///< F triples of position ids, wound so that the front is the side of the normals
+  std::vector<Vec3f> positions;  ///< P distinct positions in work units; traced in place where there is room for more
+  std::vector<Triangle> faces;   ///< F triples of position ids, wound so that the front is the side of the normals
   std::vector<Triangle> facePoints;  ///< F triples of lighting points, corner by corner as in `faces`
   std::vector<std::uint8_t> turned;  ///< F flags: corners 1 and 2 are exchanged against the mesh's triangle
   PackedLists positionFaces;         ///< P lists of the faces that touch a position, on whatever side of a crease

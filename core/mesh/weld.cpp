@@ -61,7 +61,9 @@ Weld weldPositions(const Mesh& mesh, const WorkFrame& frame, Passes& passes) {
     if (weld.positions.empty() || !(weld.positions.back() == p)) weld.positions.push_back(p);
     weld.ofVertex[item.vertex] = static_cast<std::uint32_t>(weld.positions.size() - 1);
   });
+  weld.positions.emplace_back();
   weld.positions.shrink_to_fit();
+  weld.positions.pop_back();
   return weld;
 }
 

@@ -13,7 +13,8 @@ namespace shbake {
 
 /// The distinct positions of a mesh.
 struct Weld {
-  std::vector<Vec3f> positions;         ///< P positions in work units, along a Morton curve of 21 bits an axis
+  std::vector<Vec3f> positions;         ///< P positions in work units, along a Morton curve of 21 bits an axis; room
+                                        ///< for one more
   std::vector<std::uint32_t> ofVertex;  ///< V position ids; kUnused for a vertex that no face uses
 
   static constexpr std::uint32_t kUnused = 0xFFFFFFFFu;

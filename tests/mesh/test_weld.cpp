@@ -39,6 +39,13 @@ TEST_CASE("vertices share an id exactly where their work positions agree", "[wel
   CHECK(weldOf(shapes::cubeSplit()).positions.size() == 8);
 }
 
+TEST_CASE("there is room behind the positions, for Embree to trace them in place", "[weld]") {
+  for (const Mesh& mesh : {shapes::cubeSplit(), shapes::icosphere(4)}) {
+    const Weld weld = weldOf(mesh);
+    CHECK(weld.positions.capacity() == weld.positions.size() + 1);
+  }
+}
+
 TEST_CASE("a difference of one unit in the last place is not welded, one of zero's sign is", "[weld]") {
   Mesh mesh;
   mesh.positions = {{-1, -1, -1}, {1, 1, 1}, {0.5, -0.0, 0}, {0.5, 0.0, -0.0}, {0.5 + 0x1p-24, 0, 0}};
