@@ -52,8 +52,25 @@ int FanTest::edgeAlong(const Vec3d& direction, std::size_t firstEdge) {
 
 bool FanTest::isOwn(std::uint32_t face, std::uint32_t p) const {
   if (face == kNone) return false;
+  if (ownContact_ != nullptr) return face == ownContact_->face;
   const Triangle& own = points_.facePoints[face];
   return own[0] == p || own[1] == p || own[2] == p;
+}
+
+const Contact* FanTest::findOwnContact(std::uint32_t p) const {
+  const std::uint32_t position = points_.pointPosition[p];
+  if (!points_.positionFaces[position].empty()) return nullptr;
+  // Of all faces that the position lies on, the point is on the front of the one that looks its normal's way.
+  const Vec3d normal(points_.pointNormal[p]);
+  const Contact* own = nullptr;
+  double most = 0;
+  for (const Contact& contact : contacts_.of(position)) {
+    const double along = dot(sectorsOf(points_, contact).normal, normal);
+    if (own != nullptr && along <= most) continue;
+    own = &contact;
+    most = along;
+  }
+  return own;
 }
 
 void FanTest::addArc(std::uint32_t face, int from, int to, std::uint32_t p, std::size_t firstArc) {
@@ -82,7 +99,20 @@ void FanTest::addFan(std::uint32_t p) {
     const int from = edgeTo(t[(corner + 1) % 3], origin), to = edgeTo(t[(corner + 2) % 3], origin);
     addArc(f, from, to, p, 0);
   }
+  if (ownContact_ != nullptr) {
+    for (const Contact& contact : contacts_.of(position)) {
+      if (contact.isSamePart(*ownContact_)) addSectors(contact, p, 0, 0);
+    }
+  }
   surfaceEnds_.assign(1, arcs_.size());
+}
+
+void FanTest::addSectors(const Contact& contact, std::uint32_t p, std::size_t firstEdge, std::size_t firstArc) {
+  const ContactSectors sectors = sectorsOf(points_, contact);
+  for (std::size_t k = 0; k + 1 < sectors.count; ++k) {
+    const int from = edgeAlong(sectors.direction[k], firstEdge), to = edgeAlong(sectors.direction[k + 1], firstEdge);
+    addArc(contact.face, from, to, p, firstArc);
+  }
 }
 
 void FanTest::addContacts(std::uint32_t p, std::uint32_t startFace, const Vec3d& start) {
@@ -90,14 +120,10 @@ void FanTest::addContacts(std::uint32_t p, std::uint32_t startFace, const Vec3d&
   for (std::size_t i = 0, end = 0; i < contacts.size(); i = end) {
     const std::size_t firstEdge = edges_.size(), firstArc = arcs_.size();
     for (end = i; end < contacts.size() && contacts[end].isSamePart(contacts[i]); ++end) {
+      const bool inFan = ownContact_ != nullptr && contacts[end].isSamePart(*ownContact_);
       // A face that the start lies in is one wall with the start's own: it has no side of its own.
-      if (isCovered(startFace, start, contacts[end])) continue;
-      const ContactSectors sectors = sectorsOf(points_, contacts[end]);
-      for (std::size_t k = 0; k + 1 < sectors.count; ++k) {
-        const int from = edgeAlong(sectors.direction[k], firstEdge),
-                  to = edgeAlong(sectors.direction[k + 1], firstEdge);
-        addArc(contacts[end].face, from, to, p, firstArc);
-      }
+      if (inFan || isCovered(startFace, start, contacts[end])) continue;
+      addSectors(contacts[end], p, firstEdge, firstArc);
     }
     if (arcs_.size() > firstArc) surfaceEnds_.push_back(arcs_.size());
   }
@@ -190,7 +216,9 @@ void FanTest::keepRisingArcs() {
 void FanTest::setPoint(std::uint32_t p) {
   height_ = 0;
   zenithBlocked_ = false;
+  ownContact_ = nullptr;
   if (!risesAboveTangentPlane(p) && contacts_.of(points_.pointPosition[p]).empty()) return;
+  ownContact_ = findOwnContact(p);
   addFan(p);
   const Vec3d normal(points_.pointNormal[p]);
   Vec3d start;

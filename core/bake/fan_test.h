@@ -7,6 +7,8 @@
 // where the arc from a start s, known to be free, to d crosses them an odd number of times. Faces that the position
 // lies on without sharing it (contact.h) are seen from it as half or whole great circles, and block by the same rule,
 // each part of a surface for itself: what stands on the ground does not see through it, whatever its own faces do.
+// A point whose position is no corner (surface_error.h) lies on a face: that face and those that meet it there are its
+// fan.
 #pragma once
 
 #include <cstdint>
@@ -60,8 +62,10 @@ class FanTest {
   int edgeTo(std::uint32_t position, const Vec3f& origin);
   int edgeAlong(const Vec3d& direction, std::size_t firstEdge);
   bool isOwn(std::uint32_t face, std::uint32_t p) const;
+  const Contact* findOwnContact(std::uint32_t p) const;
   void addArc(std::uint32_t face, int from, int to, std::uint32_t p, std::size_t firstArc);
   void addFan(std::uint32_t p);
+  void addSectors(const Contact& contact, std::uint32_t p, std::size_t firstEdge, std::size_t firstArc);
   void addContacts(std::uint32_t p, std::uint32_t startFace, const Vec3d& start);
   bool isCovered(std::uint32_t face, const Vec3d& direction, const Contact& by) const;
   const Arc* chooseStart(std::uint32_t p, const Vec3d& normal, Vec3d& start) const;
@@ -73,6 +77,7 @@ class FanTest {
 
   const LightingPoints& points_;
   const Contacts& contacts_;
+  const Contact* ownContact_ = nullptr;  // where the point lies on its own face; null where it is a corner of it
   std::vector<Edge> edges_;
   std::vector<Arc> arcs_;
   std::vector<std::size_t> surfaceEnds_;  // one past the last arc of each surface: the fan, then those in contact

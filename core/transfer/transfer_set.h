@@ -51,6 +51,20 @@ struct AlbedoFacts {
   bool bytesAreLinear = false;  ///< 8-bit colours were taken as linear instead of sRGB
 };
 
+/// How far the transfer interpolated between the vertices, which is what a viewer sees, is from the true one: relative
+/// transfer errors at random points of the surface (bake/surface_error.h).
+struct SurfaceError {
+  std::size_t samples = 0;  ///< points of the surface; 0: not measured
+  int rays = 0;             ///< rays traced from each; 0 where the transfer has a closed form
+  double rms = 0;           ///< area-weighted, freed from the noise of the rays
+  double low = 0;           ///< 95 % confidence interval of `rms`
+  double high = 0;
+  double worst = 0;     ///< the largest error of a sample
+  Vec3d worstPosition;  ///< its place, in file units
+
+  friend bool operator==(const SurfaceError&, const SurfaceError&) = default;
+};
+
 /// How a transfer set came about: written to and read from file headers.
 struct TransferFacts {
   std::string version;  ///< of the shbake that baked
@@ -63,6 +77,7 @@ struct TransferFacts {
   double rmsError = 0;   ///< area-weighted RMS of the stated errors
   double maxError = 0;   ///< the largest stated error
   double tolerance = 0;  ///< what was asked for; 0 when rays were given instead
+  SurfaceError surface;
   AlbedoFacts albedo;
   std::size_t lightingPoints = 0;
   std::size_t sourceVertices = 0;
