@@ -3,7 +3,7 @@
 # Input:  MESHLAB_SOURCE_DIR  unpacked sources of MeshLab with vcglib; fetched to the build folder where it is empty
 # Output: MeshLab::common     what plugins compile and link with
 #         MESHLAB_API         the release as yyyymm, 202009 for Debian 12's
-#         MESHLAB_PLUGIN_DIR  where MeshLab looks for plugins
+#         MESHLAB_PLUGIN_DIR  where MeshLab looks for plugins, seen from the prefix that it is installed in
 set(MESHLAB_SOURCE_DIR "" CACHE PATH "Unpacked MeshLab sources with vcglib; empty: Debian's, fetched when they are missing")
 set(MESHLAB_LIBRARY_DIR "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/meshlab" CACHE PATH "The folder of libmeshlab-common.so")
 
@@ -30,7 +30,7 @@ endforeach()
 file(STRINGS ${meshlab_source}/ML_VERSION meshlab_version LIMIT_COUNT 1)
 string(REGEX REPLACE "^([0-9][0-9][0-9][0-9])\\.([0-9][0-9]).*" "\\1\\2" MESHLAB_API "${meshlab_version}")
 find_library(MESHLAB_COMMON_LIBRARY meshlab-common PATHS ${MESHLAB_LIBRARY_DIR} NO_DEFAULT_PATH REQUIRED)
-set(MESHLAB_PLUGIN_DIR ${MESHLAB_LIBRARY_DIR}/plugins)
+set(MESHLAB_PLUGIN_DIR lib/${CMAKE_LIBRARY_ARCHITECTURE}/meshlab/plugins)
 find_package(Qt5 5.15 REQUIRED COMPONENTS Core Gui Widgets OpenGL Xml)
 find_path(GLEW_HEADER_DIR GL/glew.h REQUIRED)
 
