@@ -44,9 +44,15 @@ class Baker {
   }
 
  private:
+  /// Whether reflections are part of the transfer: only then do points that are not wanted colour those that are.
+  bool reflects() const { return options_.kind == TransferKind::interreflected && options_.bounces != 0 && !isBlack(); }
   bool hasColor() const {
-    return std::any_of(points_.pointAlbedo.begin(), points_.pointAlbedo.end(),
-                       [](const Rgb& a) { return a.x != a.y || a.y != a.z; });
+    const bool all = reflects();
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      const Rgb& a = points_.pointAlbedo[p];
+      if ((a.x != a.y || a.y != a.z) && (all || isWanted(p))) return true;
+    }
+    return false;
   }
   bool isBlack() const {
     return std::all_of(points_.pointAlbedo.begin(), points_.pointAlbedo.end(), [](const Rgb& a) { return a == Rgb(); });
@@ -91,7 +97,7 @@ class Baker {
     const float maxDistance = static_cast<float>(options_.maxDistance * points_.frame.scale);
     std::optional<RayScene> scene(std::in_place, points_, maxDistance, parallel_, progress_);
     allocate();
-    const bool reflect = options_.kind == TransferKind::interreflected && options_.bounces != 0 && !isBlack();
+    const bool reflect = reflects();
     const int rays =
         options_.rays > 0 ? options_.rays : chooseRays(points_, wanted_, *scene, options_, parallel_, progress_);
     const DirectionSet directions(rays, options_.order);

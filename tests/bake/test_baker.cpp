@@ -37,6 +37,18 @@ TEST_CASE("grey albedo makes one channel, coloured albedo three", "[baker]") {
   CHECK(bakeAll(pointsOf(mesh, {0.5f, 0.5f, 0.4f}), reflected(2, 16, 1)).transfer.channels == 3);
 }
 
+TEST_CASE("what is not baked asks for channels only where it reflects", "[baker]") {
+  LightingPoints points = pointsOf(shapes::corner(2), {0.5f, 0.5f, 0.5f});
+  points.pointAlbedo[1] = {0.5f, 0.2f, 0.2f};
+  BakeOptions options = optionsOf(TransferKind::shadowed, 2, 16);
+  CHECK(bakeSome(points, {0}, options).transfer.channels == 1);
+  CHECK(bakeSome(points, {1}, options).transfer.channels == 3);
+  options.kind = TransferKind::interreflected;
+  CHECK(bakeSome(points, {0}, options).transfer.channels == 3);
+  options.bounces = 0;
+  CHECK(bakeSome(points, {0}, options).transfer.channels == 1);
+}
+
 TEST_CASE("a coloured bake equals three grey ones", "[baker]") {
   const Mesh mesh = shapes::corner(3);
   for (const int bounces : {0, 3, BakeOptions::kBouncesAuto}) {
