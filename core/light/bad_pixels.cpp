@@ -25,6 +25,7 @@ float repaired(float v, float mostFinite, bool keepNegative) {
 /// bit clear, too.
 SHBAKE_VECTOR_CLONES bool isSurelyGood(std::span<const Rgb> row) {
   static_assert(sizeof(Rgb) == 3 * sizeof(float));
+  if (row.empty()) return true;
   const float* values = &row.data()->x;
   std::uint32_t signs = 0;
   for (std::size_t i = 0; i < 3 * row.size(); ++i) {
