@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bake/bake_options.h"
+#include "bake/surface_error.h"
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/memory.h"
@@ -22,6 +23,7 @@
 #include "mesh/mesh_reader.h"
 #include "mesh/ply_writer.h"
 #include "pipeline/bake_mesh.h"
+#include "pipeline/baked_surface_error.h"
 #include "sh/basis.h"
 #include "sh/conventions.h"
 #include "sh/extremes.h"

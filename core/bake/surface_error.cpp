@@ -1,4 +1,4 @@
-// The error of interpolated transfer, measured at random points of the surface.
+// The error of interpolated transfer, measured at random points of the surface: maths.md (26) to (28).
 #include "bake/surface_error.h"
 
 #include <algorithm>
@@ -315,18 +315,24 @@ class SurfaceMeter {
 
 }  // namespace
 
-SurfaceError measureSurfaceError(LightingPoints points, const TransferSet& baked, const BakeOptions& bake,
-                                 const SurfaceErrorOptions& options, const Parallel& parallel, Progress& progress) {
-  validate(bake);
+void validate(const SurfaceErrorOptions& options) {
   constexpr std::size_t kLeast = SurfaceErrorOptions::kLeastSamples, kMost = SurfaceErrorOptions::kMostSamples;
   if (options.samples < kLeast || options.samples > kMost) {
     throw usageError("the number of surface samples, " + std::to_string(options.samples) + ", is out of range",
                      "use " + std::to_string(kLeast) + " to " + std::to_string(kMost));
   }
+}
+
+SurfaceError measureSurfaceError(LightingPoints points, const TransferSet& baked, const BakeOptions& bake,
+                                 const SurfaceErrorOptions& options, const Parallel& parallel, Progress& progress) {
+  validate(bake);
+  validate(options);
   if (bake.kind != TransferKind::unshadowed && bake.rays == 0) {
     throw usageError("the surface error needs the number of rays that the bake took", "set BakeOptions::rays");
   }
-  if (baked.size() != points.size() || baked.order != bake.order) {
+  const bool hasColor = std::any_of(points.pointAlbedo.begin(), points.pointAlbedo.end(),
+                                    [](const Rgb& a) { return a.x != a.y || a.y != a.z; });
+  if (baked.size() != points.size() || baked.order != bake.order || baked.channels != (hasColor ? 3 : 1)) {
     throw usageError("the transfer does not belong to these points and options", "give what bakePoints() returned");
   }
   const std::size_t faces = options.faces == 0 ? points.faces.size() : std::min(options.faces, points.faces.size());

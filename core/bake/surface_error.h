@@ -32,6 +32,9 @@ struct SurfaceErrorOptions {
   static constexpr std::size_t kLeastSamples = 16, kMostSamples = 1 << 20;
 };
 
+/// Throws a usage error where an option is out of its range.
+void validate(const SurfaceErrorOptions& options);
+
 /// Measures the transfer that bakePoints() gave with the options `bake`, where `rays` must be the number that it took;
 /// corners of measured faces must have been wanted. Each sample takes two sets of four times as many rays. What faces
 /// reflect to a sample is what was baked for them, interpolated; where reflections were summed to a count, what is

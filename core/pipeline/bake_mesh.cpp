@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bake/baker.h"
+#include "bake/surface_error.h"
 #include "base/error.h"
 #include "pipeline/scene.h"
 
@@ -112,6 +113,8 @@ TransferFacts describe(const PointBake& baked, const BakeOptions& options) {
   facts.rmsError = baked.rmsError;
   facts.maxError = baked.maxError;
   facts.tolerance = options.rays == 0 ? options.tolerance : 0;
+  facts.twoSided = options.twoSided;
+  facts.maxDistance = options.maxDistance;
   return facts;
 }
 
@@ -140,6 +143,7 @@ void warn(BakedMesh& result, const PointBake& baked, const LightingPoints& point
 BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshOptions& options,
                    const Parallel& parallel, Progress& progress) {
   validate(options.bake);
+  if (options.surfaceSamples > 0) validate(SurfaceErrorOptions{options.surfaceSamples});
   // Among blockers, nobody else would notice.
   if (mesh.triangles.empty()) {
     throw Error({.file = mesh.source, .cause = "the mesh has no faces", .remedy = "light is baked for surfaces only"});
@@ -181,6 +185,7 @@ BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshO
   result.facts.albedo = describe(albedo.albedo, options.albedo);
   result.facts.lightingPoints = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 1));
   result.facts.sourceVertices = vertices;
+  result.facts.blockers = blockers.size();
   result.facts.source = std::filesystem::path(mesh.source).filename().string();
   warn(result, baked, points, outputs, options.bake);
   setNormals(mesh, points, outputs);
@@ -188,6 +193,17 @@ BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshO
     for (const std::uint32_t i : outputs) result.sourceVertex.push_back(points.outputSource[i]);
   }
   result.mesh = std::move(mesh);
+
+  // What a viewer sees between the vertices.
+  if (options.surfaceSamples > 0) {
+    BakeOptions done = options.bake;
+    done.rays = baked.rays;
+    const SurfaceErrorOptions surface{options.surfaceSamples, result.mesh.triangles.size()};
+    result.facts.surface = measureSurfaceError(std::move(points), baked.transfer, done, surface, parallel, progress);
+    if (result.facts.surface.samples == 0) {
+      result.warnings.push_back("the surface error was not measured: no face has an area and reflects light");
+    }
+  }
   return result;
 }
 

@@ -1,6 +1,7 @@
 // The whole way from a mesh to its baked transfer in one function.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,8 @@ struct BakeMeshOptions {
   LightingPointOptions points;
   AlbedoOptions albedo;
   BakeOptions bake;
+  /// Points at which the surface error is measured after the bake (bake/surface_error.h), 16..1048576; 0: it is not.
+  std::size_t surfaceSamples = 0;
 };
 
 /// A baked mesh, ready to be written: one transfer vector for each vertex of `mesh`.

@@ -65,6 +65,10 @@ std::string shortest(T value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
+std::string triple(double x, double y, double z) {
+  return shortest(x) + "," + shortest(y) + "," + shortest(z);
+}
+
 /// Collects "key=value" words into a comment.
 class FactLine {
  public:
@@ -166,17 +170,19 @@ class FactReader {
   std::map<std::string, std::string> values_;
 };
 
-std::optional<Rgb> parseColor(const std::string& text) {
-  Rgb color;
+/// Three numbers in least..most with commas between.
+template <class T>
+std::optional<Vec3<T>> parseTriple(const std::string& text, T least, T most) {
+  Vec3<T> triple;
   const char* at = text.data();
   const char* const end = at + text.size();
-  for (float* c : {&color.x, &color.y, &color.z}) {
+  for (T* c : {&triple.x, &triple.y, &triple.z}) {
     const auto result = std::from_chars(at, end, *c);
-    if (result.ec != std::errc{} || !(*c >= 0 && *c <= 1)) return {};
+    if (result.ec != std::errc{} || !(*c >= least && *c <= most)) return {};
     at = result.ptr;
-    if (c != &color.z && (at == end || *at++ != ',')) return {};
+    if (c != &triple.z && (at == end || *at++ != ',')) return {};
   }
-  return at == end ? std::optional(color) : std::nullopt;
+  return at == end ? std::optional(triple) : std::nullopt;
 }
 
 AlbedoFacts parseAlbedo(FactReader& reader) {
@@ -188,7 +194,7 @@ AlbedoFacts parseAlbedo(FactReader& reader) {
   albedo.bytesAreLinear = reader.choice("albedo_bytes", {"srgb", "linear"}).value_or(0) == 1;
   const auto text = reader.take("albedo_rgb");
   if (text) {
-    const auto color = parseColor(*text);
+    const auto color = parseTriple(*text, 0.0f, 1.0f);
     if (!color)
       reader.fail("albedo_rgb", "'" + *text + "' is not three numbers 0 to 1 with commas between", "correct it");
     albedo.uniform = *color;
@@ -196,6 +202,25 @@ AlbedoFacts parseAlbedo(FactReader& reader) {
     reader.fail("albedo_rgb", "is missing, though albedo_from=uniform", "state it as three numbers 0 to 1");
   }
   return albedo;
+}
+
+SurfaceError parseSurface(FactReader& reader) {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  SurfaceError surface;
+  surface.samples =
+      reader.number<std::size_t>("surface_samples", 0, std::numeric_limits<std::size_t>::max()).value_or(0);
+  surface.rays = reader.number("surface_rays", 0, std::numeric_limits<int>::max()).value_or(0);
+  surface.rms = reader.number("surface_rms", 0.0, kMost).value_or(0);
+  surface.low = reader.number("surface_low", 0.0, kMost).value_or(0);
+  surface.high = reader.number("surface_high", 0.0, kMost).value_or(0);
+  surface.worst = reader.number("surface_worst", 0.0, kMost).value_or(0);
+  if (const auto text = reader.take("surface_worst_at")) {
+    const auto position = parseTriple(*text, -kMost, kMost);
+    if (!position)
+      reader.fail("surface_worst_at", "'" + *text + "' is not three numbers with commas between", "correct it");
+    surface.worstPosition = *position;
+  }
+  return surface;
 }
 
 TransferFacts parseHistory(FactReader& reader) {
@@ -217,10 +242,39 @@ TransferFacts parseHistory(FactReader& reader) {
   facts.rmsError = reader.number("rms_error", 0.0, kMostDouble).value_or(0);
   facts.maxError = reader.number("max_error", 0.0, kMostDouble).value_or(0);
   facts.tolerance = reader.number("tolerance", 0.0, kMostDouble).value_or(0);
+  facts.twoSided = reader.number("two_sided", 0, 1).value_or(0) == 1;
+  facts.maxDistance = reader.number("max_distance", std::numeric_limits<double>::denorm_min(), kMostDouble)
+                          .value_or(std::numeric_limits<double>::infinity());
+  facts.blockers = reader.number<std::size_t>("blockers", 0, kMostSize).value_or(0);
+  facts.surface = parseSurface(reader);
   facts.lightingPoints = reader.number<std::size_t>("lighting_points", 0, kMostSize).value_or(0);
   facts.sourceVertices = reader.number<std::size_t>("source_vertices", 0, kMostSize).value_or(0);
   facts.source = reader.take("source").value_or("");
   return facts;
+}
+
+/// What limits the tracing beside its rays; nothing where nothing does.
+std::optional<std::string> limitsComment(const TransferFacts& facts) {
+  const bool limited = std::isfinite(facts.maxDistance);
+  if (!facts.twoSided && !limited && facts.blockers == 0) return {};
+  FactLine line;
+  if (facts.twoSided) line.add("two_sided", 1);
+  if (limited) line.add("max_distance", facts.maxDistance);
+  if (facts.blockers > 0) line.add("blockers", facts.blockers);
+  return line.text();
+}
+
+std::string surfaceComment(const SurfaceError& surface) {
+  const Vec3d& at = surface.worstPosition;
+  return FactLine()
+      .add("surface_samples", surface.samples)
+      .add("surface_rays", surface.rays)
+      .add("surface_rms", surface.rms)
+      .add("surface_low", surface.low)
+      .add("surface_high", surface.high)
+      .add("surface_worst", surface.worst)
+      .add("surface_worst_at", triple(at.x, at.y, at.z))
+      .text();
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -277,6 +331,8 @@ std::vector<std::string> factComments(const TransferFacts& facts, int order, int
     }
     comments.push_back(line.text());
   }
+  if (const auto limits = limitsComment(facts)) comments.push_back(*limits);
+  if (facts.surface.samples > 0) comments.push_back(surfaceComment(facts.surface));
   return comments;
 }
 

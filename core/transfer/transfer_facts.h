@@ -27,7 +27,8 @@ bool isFactComment(std::string_view comment);
 
 /// The comments that state all facts of a transfer, in the order of the conventions (section PLY). Blanks, '%' and
 /// control characters within a value become %XX, so that a value never ends early. What albedo was taken follows in a
-/// line of its own where it is known.
+/// line of its own where it is known, as do the limits of what was traced where there are any, and the surface error
+/// where it was measured.
 std::vector<std::string> factComments(const TransferFacts& facts, int order, int channels);
 
 /// Reads the facts back from all comments of a file; comments that state none are passed over. Facts about the basis

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -77,11 +78,14 @@ struct TransferFacts {
   double rmsError = 0;   ///< area-weighted RMS of the stated errors
   double maxError = 0;   ///< the largest stated error
   double tolerance = 0;  ///< what was asked for; 0 when rays were given instead
-  SurfaceError surface;
   AlbedoFacts albedo;
   std::size_t lightingPoints = 0;
   std::size_t sourceVertices = 0;
-  std::string source;  ///< the mesh file's name without its folder
+  std::string source;                                            ///< the mesh file's name without its folder
+  bool twoSided = false;                                         ///< faces reflected from both sides
+  double maxDistance = std::numeric_limits<double>::infinity();  ///< beyond it nothing was seen, in file units
+  std::size_t blockers = 0;                                      ///< meshes that blocked and reflected beside this one
+  SurfaceError surface{};
 };
 
 }  // namespace shbake

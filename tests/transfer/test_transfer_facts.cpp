@@ -62,6 +62,32 @@ TEST_CASE("Transfer facts: the text of the conventions") {
   CHECK(factComments(facts, 3, 3)[5] == "shbake albedo_from=face_colors albedo_bytes=linear");
 }
 
+TEST_CASE("Transfer facts: limits and the surface error are stated where there are any, and read back") {
+  TransferFacts facts = example();
+  facts.twoSided = true;
+  CHECK(factComments(facts, 3, 3).back() == "shbake two_sided=1");
+  facts.maxDistance = 0.1;
+  facts.blockers = 2;
+  CHECK(factComments(facts, 3, 3).back() == "shbake two_sided=1 max_distance=0.1 blockers=2");
+  facts.surface = {1024, 2048, 0.1, 0.05, 1.0 / 3, 0.7, Vec3d(-1e300, 2.5, 0.1 + 0.2)};
+  const std::vector<std::string> comments = factComments(facts, 3, 3);
+  REQUIRE(comments.size() == 7);
+  CHECK(comments[6] ==
+        "shbake surface_samples=1024 surface_rays=2048 surface_rms=0.1 surface_low=0.05 "
+        "surface_high=0.3333333333333333 surface_worst=0.7 surface_worst_at=-1e+300,2.5,0.30000000000000004");
+  const StatedFacts stated = parseFacts(comments, "a.ply");
+  CHECK(stated.notes.empty());
+  CHECK(stated.facts.twoSided);
+  CHECK(stated.facts.maxDistance == 0.1);
+  CHECK(stated.facts.blockers == 2);
+  CHECK(stated.facts.surface == facts.surface);
+  const TransferFacts silent = parseFacts(factComments(example(), 3, 3), "a.ply").facts;
+  CHECK_FALSE(silent.twoSided);
+  CHECK(silent.maxDistance == std::numeric_limits<double>::infinity());
+  CHECK(silent.blockers == 0);
+  CHECK(silent.surface == SurfaceError());
+}
+
 TEST_CASE("Transfer facts: every fact is read back") {
   TransferFacts facts = example();
   for (const char* source :
@@ -167,6 +193,18 @@ TEST_CASE("Transfer facts: faults name their field") {
                                      {"rms_error", "inf"},
                                      {"max_error", "1e999"},
                                      {"tolerance", "0,01"},
+                                     {"two_sided", "yes"},
+                                     {"max_distance", "0"},
+                                     {"max_distance", "inf"},
+                                     {"blockers", "-1"},
+                                     {"surface_samples", "many"},
+                                     {"surface_rays", "-1"},
+                                     {"surface_rms", "-0.1"},
+                                     {"surface_low", "nan"},
+                                     {"surface_high", "inf"},
+                                     {"surface_worst", "x"},
+                                     {"surface_worst_at", "1,2"},
+                                     {"surface_worst_at", "1,2,nan"},
                                      {"lighting_points", "-1"},
                                      {"source_vertices", "x"},
                                      {"albedo_from", "texture"},
