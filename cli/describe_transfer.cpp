@@ -2,6 +2,7 @@
 #include "cli/describe_transfer.h"
 
 #include "cli/format.h"
+#include "cli/surface_option.h"
 
 namespace shbake::cli {
 namespace {
@@ -45,6 +46,7 @@ void describeTransfer(const TransferSet& set, const TransferFacts* facts, Report
                                         : std::to_string(facts->bounces));
   }
   describeError(*facts, report);
+  if (facts->surface.samples > 0) describeSurface(facts->surface, report);
 }
 
 }  // namespace shbake::cli

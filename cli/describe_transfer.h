@@ -7,7 +7,7 @@
 namespace shbake::cli {
 
 /// Adds the size of `set` and, where `facts` is not null, kind, rays, reflections and stated errors to `report`, under
-/// the keys "transfer.*" and "error.*".
+/// the keys "transfer.*" and "error.*", and the surface error where it was measured.
 void describeTransfer(const TransferSet& set, const TransferFacts* facts, Report& report);
 
 }  // namespace shbake::cli

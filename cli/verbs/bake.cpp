@@ -7,6 +7,7 @@
 #include "cli/format.h"
 #include "cli/options.h"
 #include "cli/parse.h"
+#include "cli/surface_option.h"
 #include "cli/verb.h"
 
 namespace shbake::cli {
@@ -39,6 +40,9 @@ void Bake::declare(CLI::App& app) {
   addText(app, {"-o,--output", "FILE", "the PLY file to write; required"}, output_);
   declareTransfer(app);
   declareSurface(app);
+  addSurfaceSamples(app, "--surface-error",
+                    "measure the error between the vertices too, at random points of the surface",
+                    "shbake bake MESH -o OUT.ply --surface-error", options_.surfaceSamples);
   addSwitch(app, "--ascii", ply_.ascii, "write the file as text instead of binary");
   addSwitch(app, "--force", force_, "let the output replace the mesh that is baked or a blocker");
 }

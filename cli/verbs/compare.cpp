@@ -3,6 +3,7 @@
 
 #include "cli/format.h"
 #include "cli/options.h"
+#include "cli/surface_option.h"
 #include "cli/verb.h"
 
 namespace shbake::cli {
@@ -57,14 +58,42 @@ class Compare : public Verb {
   void declare(CLI::App& app) override {
     addFile(app, "A", a_, "a baked PLY file");
     addFile(app, "B", b_, "the baked PLY file to compare it with: the reference");
+    addSurfaceSamples(app, "--surface",
+                      "compare A with the light that rays find between its vertices, at random points of its surface",
+                      kSurfaceUsage, samples_);
   }
   void run(Session& session) override;
 
  private:
+  static constexpr const char* kSurfaceUsage = "shbake compare A --surface";
+
+  void measureSurface(Session& session) const;
+
   std::string a_, b_;
+  std::size_t samples_ = 0;
 };
 
+void Compare::measureSurface(Session& session) const {
+  if (a_.empty() || !b_.empty()) {
+    throw usageError("--surface measures one file by itself", std::string("usage: ") + kSurfaceUsage);
+  }
+  const BakedPly baked = readBakedPly(a_, session.progress);
+  const SurfaceError surface = measureSurfaceError(baked, samples_, session.parallel, session.progress);
+  Report& report = session.report;
+  report.data("a", a_);
+  if (surface.samples == 0) {
+    report.fact("surface.samples", std::int64_t(0), "surface", "not measured: no face has an area and reflects light");
+    return;
+  }
+  describeSurface(surface, report);
+  report.line("", "(relative to the unshadowed transfer)");
+  const bool stated = baked.facts.rmsError > 0 || baked.facts.rays == 0;
+  if (stated) report.data("stated.rms_a", baked.facts.rmsError);
+  report.line("stated", stated ? formatPercent(baked.facts.rmsError) + " at the vertices (RMS)" : "nothing");
+}
+
 void Compare::run(Session& session) {
+  if (samples_ > 0) return measureSurface(session);
   if (b_.empty()) throw usageError("two files are needed", "usage: shbake compare A B");
   const BakedPly a = readBakedPly(a_, session.progress), b = readBakedPly(b_, session.progress);
   const TransferComparison comparison = compareTransfer(a, b, session.progress);
@@ -78,12 +107,15 @@ void Compare::run(Session& session) {
 
 extern const VerbEntry compareVerb;
 const VerbEntry compareVerb{
-    "compare", "A B", "tell how far one baked file is from another",
+    "compare", "A B", "tell how far one baked file is from another, or from the truth",
     "Compares the light transfer of two baked files of one mesh, vertex by vertex, matched by position and normal, and "
-    "tells the difference relative to the unshadowed transfer of B, beside the errors that the files state.\n"
+    "tells the difference relative to the unshadowed transfer of B, beside the errors that the files state. With "
+    "--surface, tells how far the transfer of A, "
+    "interpolated over its faces, is from the one that is traced there.\n"
     "\n"
-    "Example:\n"
-    "  shbake compare quick.ply reference.ply",
+    "Examples:\n"
+    "  shbake compare quick.ply reference.ply\n"
+    "  shbake compare quick.ply --surface",
     [] { return std::unique_ptr<Verb>(std::make_unique<Compare>()); }};
 
 }  // namespace shbake::cli

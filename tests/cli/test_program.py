@@ -113,6 +113,11 @@ class Usage(ProgramTest):
             (["bake", "box.obj", "-o", ""], "no output"),
             (["info"], "no file"),
             (["compare", "a.ply"], "two files"),
+            (["bake", "-o", "out.ply", "--surface-error", "box.obj"], "'box.obj' is not a number of samples",
+             "before the option"),
+            (["bake", "box.obj", "-o", "out.ply", "--surface-error", "7"], "--surface-error: 7 is out of range"),
+            (["compare", "a.ply", "b.ply", "--surface"], "one file", "usage: shbake compare A --surface"),
+            (["compare", "--surface", "a.ply"], "'a.ply' is not a number of samples"),
         ]
         for arguments, *parts in cases:
             with self.subTest(" ".join(arguments)):
@@ -344,6 +349,24 @@ class Reports(ProgramTest):
         self.bake("--order", "3", "--albedo", "0.9,0.5,0.2", "--seed", "2", output=self.folder / "other.ply")
         other = json.loads(self.run_program("compare", "out.ply", "other.ply", "--json", "-").stdout)
         self.assertGreater(other["difference"]["rms"], 0)
+
+    def test_the_surface_error_is_told_by_bake_info_and_compare(self):
+        self.bake("--rays", "64", "--surface-error", "200", "--json", "bake.json")
+        baked = json.loads((self.folder / "bake.json").read_text())["surface"]
+        self.assertEqual(baked["samples"], 200)
+        self.assertLess(baked["low"], baked["rms"])
+        self.assertLess(baked["rms"], baked["high"])
+        self.assertLess(baked["high"], baked["worst"])
+        self.assertIn(b"comment shbake surface_samples=200 ", self.out.read_bytes())
+        info = self.run_program("info", "out.ply", "--json", "-").stdout
+        self.assertEqual(json.loads(info)["surface"], baked)
+        self.assertIn("RMS between the vertices", self.run_program("info", "out.ply").stdout)
+        compared = self.run_program("compare", "out.ply", "--surface=200", "--json", "-").stdout
+        self.assertEqual(json.loads(compared)["surface"], baked)
+        bare = self.run_program("compare", "out.ply", "--surface")
+        self.assertIn("of 1,024 samples", bare.stdout, bare.stderr)
+        self.bake("--rays", "64")
+        self.assertNotIn(b"surface_", self.out.read_bytes())
 
 
 class Stopping(ProgramTest):
