@@ -2,7 +2,6 @@
 #include "meshlab_plugin/filters.h"
 
 #include <cmath>
-#include <filesystem>
 #include <new>
 
 #include "meshlab_plugin/api.h"

@@ -41,4 +41,5 @@ apt-get "${options[@]}" update || printf 'apt-get update failed; going on with w
 cd "$apt"
 apt-get "${options[@]}" source --download-only "meshlab=$version" || die "the source of meshlab $version cannot be fetched"
 dpkg-source -q --no-check -x meshlab_*.dsc "$folder/source"
+rm -f "$folder"/meshlab_* # dpkg-source leaves a copy of the archive beside what it unpacks
 printf '%s\n' "$version" >"$folder/version"

@@ -70,7 +70,7 @@ class Installing(unittest.TestCase):
 
     def test_packages(self):
         subprocess.run([CMAKE.with_name("cpack"), "--config", BUILD / "CPackConfig.cmake", "-B", self.folder / "packages"],
-                       check=True, stdout=subprocess.DEVNULL)
+                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         packages = {p.name.split("_")[0]: p for p in (self.folder / "packages").glob("*.deb")}
         self.assertEqual(sorted(packages), ["meshlab-plugin-shbake", "shbake"])
 
