@@ -107,7 +107,7 @@ void Compare::run(Session& session) {
 
 extern const VerbEntry compareVerb;
 const VerbEntry compareVerb{
-    "compare", "A B", "tell how far one baked file is from another, or from the truth",
+    "compare", "A B", "tell how far one baked file is from another",
     "Compares the light transfer of two baked files of one mesh, vertex by vertex, matched by position and normal, and "
     "tells the difference relative to the unshadowed transfer of B, beside the errors that the files state. With "
     "--surface, tells how far the transfer of A, "
