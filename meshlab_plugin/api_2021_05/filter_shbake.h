@@ -32,8 +32,8 @@ class FilterShbake : public QObject, public FilterPlugin, public IOPlugin {
   std::list<FileFormat> exportFormats() const override;
   void exportMaskCapability(const QString& format, int& capability, int& defaults) const override;
   RichParameterList initSaveParameter(const QString& format, const MeshModel& layer) const override;
-  void open(const QString& format, const QString& path, MeshModel& layer, int& mask, const RichParameterList& parameters,
-            vcg::CallBackPos* callback) override;
+  void open(const QString& format, const QString& path, MeshModel& layer, int& mask,
+            const RichParameterList& parameters, vcg::CallBackPos* callback) override;
   void save(const QString& format, const QString& path, MeshModel& layer, int mask, const RichParameterList& parameters,
             vcg::CallBackPos* callback) override;
 
