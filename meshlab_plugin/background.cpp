@@ -6,7 +6,22 @@
 #include <future>
 #include <mutex>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace shbake::meshlab {
+namespace {
+
+/// Hands back to the system what the work has freed. glibc keeps it in the heap of the thread that ended, and takes
+/// another heap for the next one: MeshLab, which stays open for hours, would grow from bake to bake.
+void returnFreedMemory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+}  // namespace
 
 void runInBackground(const std::function<void(Progress&)>& work, const ProgressCallback& poll) {
   std::mutex mutex;
@@ -35,9 +50,10 @@ void runInBackground(const std::function<void(Progress&)>& work, const ProgressC
     const std::lock_guard lock(mutex);
     go = wanted;
   }
-  if (!failure) return done.get();
   done.wait();
-  std::rethrow_exception(failure);
+  returnFreedMemory();
+  if (failure) std::rethrow_exception(failure);
+  done.get();
 }
 
 }  // namespace shbake::meshlab

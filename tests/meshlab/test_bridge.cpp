@@ -161,7 +161,9 @@ TEST_CASE("bridge: fifty cancelled bakes leave the layer and the memory as they 
   }
   CHECK_FALSE(holdsTransfer(layer));
   CHECK(layer.cm.vn == 12);
-  CHECK(static_cast<double>(residentBytes()) < 1.1 * static_cast<double>(settled));
+  // A new thread may find another heap once. Forty bakes that kept a fortieth of their table of directions each,
+  // order^2 floats a ray, would exceed this.
+  CHECK(residentBytes() < settled + std::size_t(kLongBake) * 16 * sizeof(float));
 }
 
 TEST_CASE("bridge: a filter that is called while another runs says so") {
