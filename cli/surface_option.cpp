@@ -13,7 +13,9 @@ namespace shbake::cli {
 void addSurfaceSamples(CLI::App& app, const std::string& name, const std::string& help, const std::string& example,
                        std::size_t& samples) {
   const std::string count = std::to_string(SurfaceErrorOptions().samples);
-  addOption(app, {name, "[SAMPLES]", help + "; 16..1048576 samples, " + count + " where no number is given"}, "off",
+  addOption(app,
+            {name, "[SAMPLES]", help + "; 16..1048576 samples, " + count + " where no number is given (default: off)"},
+            "",
             [&samples, example](const std::string& option, const std::string& text) {
               if (text.empty()) {
                 samples = SurfaceErrorOptions().samples;
