@@ -97,13 +97,12 @@ class Baker {
     const float maxDistance = static_cast<float>(options_.maxDistance * points_.frame.scale);
     std::optional<RayScene> scene(std::in_place, points_, maxDistance, parallel_, progress_);
     allocate();
-    const bool reflect = reflects();
     const int rays =
         options_.rays > 0 ? options_.rays : chooseRays(points_, wanted_, *scene, options_, parallel_, progress_);
     const DirectionSet directions(rays, options_.order);
     result_.rays = directions.size();
     pairs_.assign(points_.size(), 0);
-    if (reflect) {
+    if (reflects()) {
       const std::size_t memory = options_.memory > 0 ? options_.memory : availableMemory() / 2;
       Reflections reflections(points_, *scene, directions, options_.seed, options_.twoSided, memory / 2, parallel_);
       traceWithHits(reflections, directions);
