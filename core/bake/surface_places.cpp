@@ -1,0 +1,109 @@
+#include "bake/surface_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/hash.h"
+#include "base/passes.h"
+
+namespace shbake {
+namespace {
+
+/// The corner with the lowest number of a point, and the points from there on: the same however a face is turned.
+std::size_t firstCorner(const Triangle& t) {
+  return static_cast<std::size_t>(std::min_element(t.begin(), t.end()) - t.begin());
+}
+Triangle fromFirstCorner(const Triangle& t) {
+  const std::size_t k = firstCorner(t);
+  return {t[k], t[(k + 1) % 3], t[(k + 2) % 3]};
+}
+
+/// The place's value of something that each corner has.
+template <class T, class OfCorner>
+Vec3<T> blend(const SurfacePlace& place, const OfCorner& ofCorner) {
+  Vec3d sum;
+  for (std::size_t k = 0; k < 3; ++k) sum += Vec3d(ofCorner(k)) * place.weights[k];
+  return Vec3<T>(sum);
+}
+
+}  // namespace
+
+double faceArea(const LightingPoints& points, std::uint32_t face) {
+  const auto corner = [&](std::size_t k) { return Vec3d(points.positions[points.faces[face][k]]); };
+  return length(cross(corner(1) - corner(0), corner(2) - corner(0))) / 2;
+}
+
+bool isBlackFace(const LightingPoints& points, std::uint32_t face) {
+  const Triangle& t = points.facePoints[face];
+  return std::all_of(t.begin(), t.end(), [&](std::uint32_t p) { return points.pointAlbedo[p] == Rgb(); });
+}
+
+std::vector<SurfacePlace> drawPlaces(const LightingPoints& points, std::span<const std::uint8_t> chosen,
+                                     std::size_t count, std::uint64_t seed, Progress& progress) {
+  const std::size_t faces = chosen.size();
+  Passes passes(progress, "placing samples", faces, "faces", 2);
+  std::vector<std::uint32_t> order(faces);
+  std::iota(order.begin(), order.end(), 0u);
+  passes.sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const Triangle ta = fromFirstCorner(points.facePoints[a]), tb = fromFirstCorner(points.facePoints[b]);
+    return ta != tb ? ta < tb : a < b;
+  });
+  std::vector<double> ends;  // the area up to the end of each face in order
+  ends.reserve(faces);
+  double area = 0;
+  passes.forEach(faces, [&](std::size_t i) {
+    const std::uint32_t f = order[i];
+    if (chosen[f] != 0 && !isBlackFace(points, f)) area += faceArea(points, f);
+    ends.push_back(area);
+  });
+  passes.end();
+  std::vector<SurfacePlace> places;
+  if (area == 0) return places;
+  const double stratum = area / static_cast<double>(count / 2);
+  for (std::size_t s = 0; s < count; ++s) {
+    const double at = (static_cast<double>(s / 2) + hashUnit(seed, 2 * s)) * stratum;
+    // The last face with an area where rounding has carried `at` to the end.
+    auto end = std::upper_bound(ends.begin(), ends.end(), at);
+    if (end == ends.end()) end = std::lower_bound(ends.begin(), ends.end(), area);
+    const double begin = end == ends.begin() ? 0 : *(end - 1);
+    const double x = std::min((at - begin) / (*end - begin), 1.0), y = hashUnit(seed, 2 * s + 1), root = std::sqrt(x);
+    SurfacePlace place{order[static_cast<std::size_t>(end - ends.begin())], {}};
+    const std::size_t k = firstCorner(points.facePoints[place.face]);
+    place.weights[k] = 1 - root;
+    place.weights[(k + 1) % 3] = root * (1 - y);
+    place.weights[(k + 2) % 3] = root * y;
+    places.push_back(place);
+  }
+  return places;
+}
+
+void addPlaces(LightingPoints& points, std::span<const SurfacePlace> places) {
+  for (const SurfacePlace& place : places) {
+    const Triangle &corners = points.faces[place.face], &facePoints = points.facePoints[place.face];
+    const auto position = [&](std::size_t k) { return points.positions[corners[k]]; };
+    Vec3d normal = normalized(blend<double>(place, [&](std::size_t k) { return points.pointNormal[facePoints[k]]; }));
+    if (normal == Vec3d()) {
+      normal = normalized(cross(Vec3d(position(1) - position(0)), Vec3d(position(2) - position(0))));
+    }
+    const Rgb albedo = blend<float>(place, [&](std::size_t k) { return points.pointAlbedo[facePoints[k]]; });
+    points.pointPosition.push_back(static_cast<std::uint32_t>(points.positions.size()));
+    points.positions.push_back(blend<float>(place, position) + Vec3f());
+    points.positionFaces.starts.push_back(static_cast<std::uint32_t>(points.positionFaces.items.size()));
+    points.pointNormal.push_back(Vec3f(normal));
+    points.pointAlbedo.push_back(albedo);
+  }
+  // Room for one more, so that they are traced in place.
+  points.positions.reserve(points.positions.size() + 1);
+}
+
+void addInterpolated(const TransferSet& set, const Triangle& corners, const std::array<double, 3>& weights,
+                     double weight, std::span<double> sum) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float* row = &set.coefficients[corners[k] * set.stride()];
+    const double w = weight * weights[k];
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += w * static_cast<double>(row[i]);
+  }
+}
+
+}  // namespace shbake

@@ -1,0 +1,44 @@
+// Random places on the surface of lighting points, and what is interpolated there.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/progress.h"
+#include "mesh/lighting_points.h"
+#include "transfer/transfer_set.h"
+
+namespace shbake {
+
+/// A place on a face: the weights of its corners, each 0..1, their sum 1.
+struct SurfacePlace {
+  std::uint32_t face;
+  std::array<double, 3> weights;
+};
+
+/// The area of a face in square work units.
+double faceArea(const LightingPoints& points, std::uint32_t face);
+
+/// True where none of a face's corners reflects light.
+bool isBlackFace(const LightingPoints& points, std::uint32_t face);
+
+/// Draws two places uniformly from each of count / 2 equal areas along the Morton curve, on which points are numbered;
+/// `count` is even. Black faces have none, nor those whose `chosen` flag is 0; `chosen` has a flag for each of the
+/// first faces, and the faces behind them are not chosen. No places where no face is left that has an area. Depends on
+/// the points' numbers, not on the order of faces or corners. Progress counts faces.
+std::vector<SurfacePlace> drawPlaces(const LightingPoints& points, std::span<const std::uint8_t> chosen,
+                                     std::size_t count, std::uint64_t seed, Progress& progress);
+
+/// Adds a lighting point for each place, with position, normal and albedo interpolated, in their order behind the
+/// others. No face has it as a corner: the fan test finds it in contact with its own.
+void addPlaces(LightingPoints& points, std::span<const SurfacePlace> places);
+
+/// Adds `weight` times the transfer at a place with these weights of the corners to `sum`, which has set.stride()
+/// values.
+void addInterpolated(const TransferSet& set, const Triangle& corners, const std::array<double, 3>& weights,
+                     double weight, std::span<double> sum);
+
+}  // namespace shbake

@@ -1,0 +1,38 @@
+// The transfer of points on the surface that are no vertices, traced by a set of rays.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bake/direct_transfer.h"
+#include "bake/point_tracer.h"
+#include "bake/ray_scene.h"
+#include "mesh/lighting_points.h"
+#include "transfer/transfer_set.h"
+
+namespace shbake {
+
+/// Traces the transfer of albedo 1 from lighting points, as a bake does; one for each worker thread.
+class SurfaceTracer {
+ public:
+  /// `senders` has what each point of a face sends to others; null: nothing is reflected. All references must outlive
+  /// the object.
+  SurfaceTracer(const LightingPoints& points, const RayScene& scene, const DirectionSet& directions, std::uint64_t seed,
+                bool twoSided, const TransferSet* senders);
+
+  /// Writes the transfer of point `p`: one row of order^2 coefficients a channel.
+  void trace(std::uint32_t p, std::span<double> out);
+
+ private:
+  const LightingPoints& points_;
+  const DirectionSet& directions_;
+  const TransferSet* senders_;
+  PointTracer tracer_;
+  DirectTransfer direct_;
+  std::vector<std::uint16_t> sky_;
+  std::vector<float> directTransfer_;
+  std::vector<Hit> hits_;
+};
+
+}  // namespace shbake
