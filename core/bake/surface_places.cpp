@@ -39,9 +39,15 @@ bool isBlackFace(const LightingPoints& points, std::uint32_t face) {
   return std::all_of(t.begin(), t.end(), [&](std::uint32_t p) { return points.pointAlbedo[p] == Rgb(); });
 }
 
-std::vector<SurfacePlace> drawPlaces(const LightingPoints& points, std::span<const std::uint8_t> chosen,
-                                     std::size_t count, std::uint64_t seed, Progress& progress) {
-  const std::size_t faces = chosen.size();
+std::vector<double> areaWeights(const LightingPoints& points, std::size_t faces) {
+  std::vector<double> weights(faces);
+  for (std::uint32_t f = 0; f < faces; ++f) weights[f] = isBlackFace(points, f) ? 0 : faceArea(points, f);
+  return weights;
+}
+
+std::vector<SurfacePlace> drawPlaces(const LightingPoints& points, std::span<const double> weights, std::size_t count,
+                                     std::uint64_t seed, Progress& progress) {
+  const std::size_t faces = weights.size();
   Passes passes(progress, "placing samples", faces, "faces", 2);
   std::vector<std::uint32_t> order(faces);
   std::iota(order.begin(), order.end(), 0u);
@@ -49,23 +55,19 @@ std::vector<SurfacePlace> drawPlaces(const LightingPoints& points, std::span<con
     const Triangle ta = fromFirstCorner(points.facePoints[a]), tb = fromFirstCorner(points.facePoints[b]);
     return ta != tb ? ta < tb : a < b;
   });
-  std::vector<double> ends;  // the area up to the end of each face in order
+  std::vector<double> ends;  // the weight up to the end of each face in order
   ends.reserve(faces);
-  double area = 0;
-  passes.forEach(faces, [&](std::size_t i) {
-    const std::uint32_t f = order[i];
-    if (chosen[f] != 0 && !isBlackFace(points, f)) area += faceArea(points, f);
-    ends.push_back(area);
-  });
+  double total = 0;
+  passes.forEach(faces, [&](std::size_t i) { ends.push_back(total += weights[order[i]]); });
   passes.end();
   std::vector<SurfacePlace> places;
-  if (area == 0) return places;
-  const double stratum = area / static_cast<double>(count / 2);
+  if (total == 0) return places;
+  const double stratum = total / static_cast<double>(count / 2);
   for (std::size_t s = 0; s < count; ++s) {
     const double at = (static_cast<double>(s / 2) + hashUnit(seed, 2 * s)) * stratum;
-    // The last face with an area where rounding has carried `at` to the end.
+    // The last face with a weight where rounding has carried `at` to the end.
     auto end = std::upper_bound(ends.begin(), ends.end(), at);
-    if (end == ends.end()) end = std::lower_bound(ends.begin(), ends.end(), area);
+    if (end == ends.end()) end = std::lower_bound(ends.begin(), ends.end(), total);
     const double begin = end == ends.begin() ? 0 : *(end - 1);
     const double x = std::min((at - begin) / (*end - begin), 1.0), y = hashUnit(seed, 2 * s + 1), root = std::sqrt(x);
     SurfacePlace place{order[static_cast<std::size_t>(end - ends.begin())], {}};

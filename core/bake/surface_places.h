@@ -25,12 +25,15 @@ double faceArea(const LightingPoints& points, std::uint32_t face);
 /// True where none of a face's corners reflects light.
 bool isBlackFace(const LightingPoints& points, std::uint32_t face);
 
-/// Draws two places uniformly from each of count / 2 equal areas along the Morton curve, on which points are numbered;
-/// `count` is even. Black faces have none, nor those whose `chosen` flag is 0; `chosen` has a flag for each of the
-/// first faces, and the faces behind them are not chosen. No places where no face is left that has an area. Depends on
+/// The areas of the first `faces` faces, but 0 for black ones: weights that spread places evenly over the surface.
+std::vector<double> areaWeights(const LightingPoints& points, std::size_t faces);
+
+/// Draws two places from each of count / 2 equal shares of the weights along the Morton curve, on which points are
+/// numbered; `count` is even. A face gets places in proportion to its weight (0 or more), spread evenly over it; the
+/// weights are those of the first faces, and faces behind them get none. No places where all weights are 0. Depends on
 /// the points' numbers, not on the order of faces or corners. Progress counts faces.
-std::vector<SurfacePlace> drawPlaces(const LightingPoints& points, std::span<const std::uint8_t> chosen,
-                                     std::size_t count, std::uint64_t seed, Progress& progress);
+std::vector<SurfacePlace> drawPlaces(const LightingPoints& points, std::span<const double> weights, std::size_t count,
+                                     std::uint64_t seed, Progress& progress);
 
 /// Adds a lighting point for each place, with position, normal and albedo interpolated, in their order behind the
 /// others. No face has it as a corner: the fan test finds it in contact with its own.
