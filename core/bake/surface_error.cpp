@@ -42,8 +42,7 @@ class SurfaceMeter {
   SurfaceError run(std::size_t faces, std::size_t samples) {
     result_.samples = samples;
     firstSample_ = points_.size();
-    places_ =
-        drawPlaces(points_, std::vector<std::uint8_t>(faces, 1), samples, hashBits(bake_.seed, kPlaces), progress_);
+    places_ = drawPlaces(points_, areaWeights(points_, faces), samples, hashBits(bake_.seed, kPlaces), progress_);
     if (places_.empty()) return {};
     squares_.resize(samples);
     if (bake_.kind == TransferKind::unshadowed) {
