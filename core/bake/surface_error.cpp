@@ -55,27 +55,9 @@ class SurfaceMeter {
   }
 
  private:
-  double albedo(std::uint32_t p, std::size_t channel) const {
-    const Rgb& a = points_.pointAlbedo[p];
-    return static_cast<double>(channel == 0 ? a.x : channel == 1 ? a.y : a.z);
-  }
-
-  /// (t - t1) . (t - t2) of sample s, relative, from two estimates of its transfer with albedo 1 in all channels.
-  double relativeSquare(std::size_t s, std::span<const double> first, std::span<const double> second) const {
-    const SurfacePlace& place = places_[s];
+  double squareOf(std::size_t s, std::span<const double> first, std::span<const double> second) const {
     const auto p = static_cast<std::uint32_t>(firstSample_ + s);
-    std::vector<double> interpolated(baked_.stride(), 0);
-    addInterpolated(baked_, points_.facePoints[place.face], place.weights, 1, interpolated);
-    const std::size_t count = static_cast<std::size_t>(baked_.coefficientsPerChannel());
-    double product = 0, scale = 0;
-    for (std::size_t c = 0; c < static_cast<std::size_t>(baked_.channels); ++c) {
-      const double rho = albedo(p, c);
-      for (std::size_t i = c * count; i < (c + 1) * count; ++i) {
-        product += (interpolated[i] - rho * first[i]) * (interpolated[i] - rho * second[i]);
-      }
-      scale += std::pow(rho * sh::unshadowedNorm(baked_.order), 2);
-    }
-    return product / scale;
+    return relativeSquare(points_, places_[s], p, {baked_, first}, {baked_, second});
   }
 
   void measureUnshadowed() {
@@ -88,7 +70,7 @@ class SurfaceMeter {
         const Vec3d normal = normalized(Vec3d(points_.pointNormal[firstSample_ + s]));
         sh::unshadowedTransfer(baked_.order, normal, 1, exact);
         for (std::size_t i = 0; i < all.size(); ++i) all[i] = exact[i % count];
-        squares_[s] = relativeSquare(s, all, all);
+        squares_[s] = squareOf(s, all, all);
       }
       progress_.advance(static_cast<double>(end - begin));
     });
@@ -130,7 +112,7 @@ class SurfaceMeter {
         const auto p = static_cast<std::uint32_t>(firstSample_ + s);
         first[static_cast<std::size_t>(worker)].trace(p, one);
         second[static_cast<std::size_t>(worker)].trace(p, other);
-        squares_[s] = relativeSquare(s, one, other);
+        squares_[s] = squareOf(s, one, other);
         progress_.advance(result_.rays);
       }
     });

@@ -1,7 +1,11 @@
 #include "bake/surface_tracer.h"
 
-#include "bake/surface_places.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "sh/basis.h"
+#include "sh/irradiance.h"
 
 namespace shbake {
 
@@ -30,6 +34,26 @@ void SurfaceTracer::trace(std::uint32_t p, std::span<double> out) {
     const double u = hit.u / 65535.0, v = hit.v / 65535.0;
     addInterpolated(*senders_, points_.facePoints[hit.face], {1 - u - v, u, v}, 1.0 / directions_.size(), out);
   }
+}
+
+double relativeSquare(const LightingPoints& points, const SurfacePlace& place, std::uint32_t point,
+                      const PlaceEstimate& a, const PlaceEstimate& b) {
+  const Triangle& corners = points.facePoints[place.face];
+  const Rgb& rho = points.pointAlbedo[point];
+  const std::array<float, 3> albedo{rho.x, rho.y, rho.z};
+  std::vector<double> left(a.baked.stride(), 0), right(b.baked.stride(), 0);
+  addInterpolated(a.baked, corners, place.weights, 1, left);
+  addInterpolated(b.baked, corners, place.weights, 1, right);
+  const std::size_t count = static_cast<std::size_t>(a.baked.coefficientsPerChannel());
+  double product = 0, scale = 0;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(a.baked.channels); ++c) {
+    const double r = static_cast<double>(albedo[c]);
+    for (std::size_t i = c * count; i < (c + 1) * count; ++i) {
+      product += (left[i] - r * a.truth[i]) * (right[i] - r * b.truth[i]);
+    }
+    scale += std::pow(r * sh::unshadowedNorm(a.baked.order), 2);
+  }
+  return product / scale;
 }
 
 }  // namespace shbake

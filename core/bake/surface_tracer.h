@@ -8,6 +8,7 @@
 #include "bake/direct_transfer.h"
 #include "bake/point_tracer.h"
 #include "bake/ray_scene.h"
+#include "bake/surface_places.h"
 #include "mesh/lighting_points.h"
 #include "transfer/transfer_set.h"
 
@@ -34,5 +35,17 @@ class SurfaceTracer {
   std::vector<float> directTransfer_;
   std::vector<Hit> hits_;
 };
+
+/// An estimate of what is baked for the corners of faces, and one of the true transfer of a place with albedo 1.
+struct PlaceEstimate {
+  const TransferSet& baked;
+  std::span<const double> truth;  ///< baked.stride() values
+};
+
+/// (t_a - t*_a) . (t_b - t*_b) / |t_unshadowed|^2 at a place, which is lighting point `point`, where t is interpolated
+/// and t* the truth times the place's albedo. Independent noise of the two estimates cancels in the mean, so that the
+/// square of the error remains; a single value may be negative. Not finite where the place is black.
+double relativeSquare(const LightingPoints& points, const SurfacePlace& place, std::uint32_t point,
+                      const PlaceEstimate& a, const PlaceEstimate& b);
 
 }  // namespace shbake
