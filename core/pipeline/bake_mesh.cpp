@@ -7,7 +7,7 @@
 #include "bake/baker.h"
 #include "bake/surface_error.h"
 #include "base/error.h"
-#include "pipeline/scene.h"
+#include "pipeline/scene_points.h"
 
 namespace shbake {
 namespace {
@@ -150,25 +150,13 @@ BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshO
   }
   BakedMesh result;
 
-  // Albedo: of the mesh and of what stands around it.
-  ResolvedAlbedo albedo = resolveAlbedo(mesh, options.albedo);
-  result.albedoNote = albedo.note;
-  result.warnings = mesh.warnings;
-  result.warnings.insert(result.warnings.end(), albedo.warnings.begin(), albedo.warnings.end());
-
   // Lighting points of everything that takes part in the transport of light.
   const std::size_t vertices = mesh.positions.size();
-  LightingPoints points;
-  if (blockers.empty()) {
-    points = makeLightingPoints(mesh, options.points, albedo.albedo, progress);
-  } else {
-    AlbedoOptions blockerOptions = options.albedo;
-    blockerOptions.source = AlbedoSource::automatic;
-    std::vector<Albedo> albedos;
-    for (const Mesh& b : blockers) albedos.push_back(resolveAlbedo(b, blockerOptions).albedo);
-    const Scene scene = joinScene(mesh, albedo.albedo, blockers, albedos);
-    points = makeLightingPoints(scene.mesh, options.points, scene.albedo, progress);
-  }
+  ScenePoints scene = makeScenePoints(mesh, blockers, options.points, options.albedo, progress);
+  LightingPoints& points = scene.points;
+  result.albedoNote = scene.albedo.note;
+  result.warnings = mesh.warnings;
+  result.warnings.insert(result.warnings.end(), scene.albedo.warnings.begin(), scene.albedo.warnings.end());
 
   // The mesh's vertices in their order, then those that are split off; two copies of the faces are not needed.
   const std::vector<std::uint32_t> outputs = ownOutputs(points, vertices);
@@ -182,7 +170,7 @@ BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshO
   // Back to the mesh.
   result.transfer = expand(baked.transfer, points, outputs);
   result.facts = describe(baked, options.bake);
-  result.facts.albedo = describe(albedo.albedo, options.albedo);
+  result.facts.albedo = describe(scene.albedo.albedo, options.albedo);
   result.facts.lightingPoints = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 1));
   result.facts.sourceVertices = vertices;
   result.facts.blockers = blockers.size();
