@@ -60,7 +60,7 @@ void requireWritable(const Mesh& mesh, const TransferSet& transfer, std::span<co
   if (!sourceVertex.empty()) requireItems(sourceVertex.size(), vertices, "source vertices");
   passes.forEach(sourceVertex.size(), [&](std::size_t v) {
     constexpr std::uint32_t kLargest = std::numeric_limits<std::int32_t>::max();
-    if (sourceVertex[v] > kLargest) throw usageError("a source vertex is beyond the range of int");
+    if (sourceVertex[v] > kLargest && sourceVertex[v] != kNewVertex) throw usageError("a source vertex is beyond the range of int");
   });
   passes.end();
 }
@@ -204,6 +204,10 @@ class TransferReader {
     baked_.sourceVertex.resize(vertices_);
     forEachCounted(progress_, vertices_, 0, [&](std::size_t v) {
       const double value = scalarAt(column, v);
+      if (value == -1) {
+        baked_.sourceVertex[v] = kNewVertex;
+        return;
+      }
       if (value < 0 || value >= limit) {
         fail(file_, "vertex " + std::to_string(v),
              "its source_vertex is " + std::to_string(static_cast<std::int64_t>(value)) +

@@ -66,6 +66,9 @@ struct SurfaceError {
   friend bool operator==(const SurfaceError&, const SurfaceError&) = default;
 };
 
+/// The source of a vertex that is none of the input's: a refinement made it. -1 in files.
+inline constexpr std::uint32_t kNewVertex = 0xFFFFFFFFu;
+
 /// How a transfer set came about: written to and read from file headers.
 struct TransferFacts {
   std::string version;  ///< of the shbake that baked

@@ -67,7 +67,7 @@ TEST_CASE("Baked PLY: header and rows exactly as the conventions state them") {
   baked.transfer.coefficients = {0.1f, 0.2f, 0.3f, 1, 2, 3, 4, 5, 6};
   baked.transfer.error = {0.5f, 0, 0.25f};
   baked.transfer.visibility = {1, 0.75f, 0};
-  baked.sourceVertex = {0, 1, 1};
+  baked.sourceVertex = {0, 1, kNewVertex};
   baked.facts = {
       "0.1.0",    TransferKind::interreflected, 3, false, 256, 1, "cosine-fibonacci", 0.01, 0.05, 0.02, {}, 3, 2,
       "bunny.ply"};
@@ -88,7 +88,7 @@ TEST_CASE("Baked PLY: header and rows exactly as the conventions state them") {
         "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
         "0 0 0 0 0 1 255 0 0 0 1 0.1 0.2 0.3 0.5 0\n"
         "1 0 0 0 0 1 255 0 0 0 0.75 1 2 3 0 1\n"
-        "0 1 0.1 0 0 1 255 0 0 0 0 4 5 6 0.25 1\n"
+        "0 1 0.1 0 0 1 255 0 0 0 0 4 5 6 0.25 -1\n"
         "3 0 1 2\n");
 }
 
@@ -233,8 +233,8 @@ TEST_CASE("Baked PLY: contradictions in a file are named") {
              Catch::StartsWith("vertex 0: its sh_error is not"));
   CHECK_THAT(fault("", kFour + "property float sh_error\n", "1 2 3 4 nan"),
              Catch::StartsWith("vertex 0: its sh_error is not"));
-  CHECK_THAT(fault("", kFour + "property int source_vertex\n", "1 2 3 4 -1"),
-             Catch::StartsWith("vertex 0: its source_vertex is -1"));
+  CHECK_THAT(fault("", kFour + "property int source_vertex\n", "1 2 3 4 -2"),
+             Catch::StartsWith("vertex 0: its source_vertex is -2"));
   CHECK_THAT(fault("comment shbake source_vertices=5\n", kFour + "property int source_vertex\n", "1 2 3 4 5"),
              Catch::StartsWith("vertex 0: its source_vertex is 5, but source_vertices=5"));
 }
@@ -313,7 +313,7 @@ TEST_CASE("Baked PLY: damaged files give a bake or an Error") {
         const BakedPly back = read(path);
         CHECK(back.transfer.size() == back.mesh.positions.size());
         for (const float t : back.transfer.coefficients) REQUIRE(std::isfinite(t));
-        for (const std::uint32_t v : back.sourceVertex) REQUIRE(v < 0xFFFFFFFFu);
+        for (const std::uint32_t v : back.sourceVertex) REQUIRE((v == kNewVertex || v < 0x80000000u));
       });
       if (error) CHECK(error->file == path);
       ++(error ? errors : valid);
