@@ -22,6 +22,7 @@
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_reader.h"
 #include "mesh/ply_writer.h"
+#include "mesh/refine.h"
 #include "pipeline/bake_mesh.h"
 #include "pipeline/baked_surface_error.h"
 #include "sh/basis.h"

@@ -1,0 +1,222 @@
+// Region growing on planes, as in T. Rabbani, F. van den Heuvel, G. Vosselman, "Segmentation of point clouds using
+// smoothness constraint", ISPRS 2006, with the largest face in place of the least curved point.
+#include "mesh/flat_regions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "base/error.h"
+#include "mesh/flat_geometry.h"
+
+namespace shbake {
+namespace {
+
+constexpr std::uint32_t kNone = FlatRegions::kNone;
+// Of faces spread evenly over a cone of half-angle a about a normal, the mean square deviation is a^2 / 2; of those of
+// a cylinder, a^2 / 3.
+constexpr double kFlatShare = 0.25;
+
+class RegionFinder {
+ public:
+  RegionFinder(const Mesh& mesh, const EdgeTable& edges, const FlatOptions& options, Progress& progress)
+      : mesh_(mesh),
+        edges_(edges),
+        flat_(options.flatDegrees * std::numbers::pi / 180),
+        crease_(options.creaseDegrees * std::numbers::pi / 180),
+        progress_(progress),
+        passes_(progress, "finding flat regions", mesh.triangles.size(), "faces", kPasses) {}
+
+  FlatRegions run() {
+    measureFaces();
+    grow();
+    judge();
+    number();
+    passes_.end();
+    return std::move(regions_);
+  }
+
+ private:
+  // Normals 1, sorting 1, growing 1, borders 1, inner points 1, numbers 1.
+  static constexpr int kPasses = 6;
+
+  // What tells a flat region from a part of a curved one.
+  struct Evidence {
+    double area = 0, squares = 0;  // of its faces, and of their deviations weighted by them
+    bool roundedBorder = false;
+    bool innerPoint = false;
+  };
+
+  void measureFaces();
+  void grow();
+  void growFrom(std::uint32_t seed);
+  bool liesIn(std::uint32_t face, const Vec3d& normal, const Vec3d& origin, double ulp) const;
+  void judge();
+  void judgeEdge(std::span<const FaceSide> sides, std::vector<bool>& onBorder);
+  bool isRounded(FaceSide s, FaceSide t) const;
+  bool normalsGoOn(FaceSide s, FaceSide t) const;
+  Vec3f fileNormal(std::uint32_t corner) const;
+  void number();
+
+  bool hasPlane(std::uint32_t face) const { return !(normals_[face] == Vec3d()); }
+
+  const Mesh& mesh_;
+  const EdgeTable& edges_;
+  double flat_, crease_;
+  Progress& progress_;
+  Passes passes_;
+  FlatRegions regions_;
+  std::vector<Vec3d> normals_;  // unit; zero for faces without a plane
+  std::vector<double> areas_;
+  std::vector<Evidence> evidence_;
+  std::vector<std::uint32_t> front_;
+};
+
+void RegionFinder::measureFaces() {
+  normals_.resize(mesh_.triangles.size());
+  areas_.resize(mesh_.triangles.size());
+  passes_.forEach<std::uint32_t>(mesh_.triangles.size(), [&](std::uint32_t f) {
+    const FaceShape shape(mesh_, f);
+    areas_[f] = length(shape.areaVector) / 2;
+    if (shape.hasPlane()) normals_[f] = shape.normal();
+  });
+}
+
+void RegionFinder::grow() {
+  regions_.ofFace.assign(mesh_.triangles.size(), kNone);
+  std::vector<std::uint32_t> seeds;
+  for (std::uint32_t f = 0; f < mesh_.triangles.size(); ++f) {
+    if (hasPlane(f)) seeds.push_back(f);
+  }
+  passes_.sort(seeds.begin(), seeds.end(), [this](std::uint32_t f, std::uint32_t g) {
+    return areas_[f] != areas_[g] ? areas_[f] > areas_[g] : f < g;
+  });
+  passes_.forEach(seeds.size(), [&](std::size_t i) {
+    if (regions_.ofFace[seeds[i]] == kNone) growFrom(seeds[i]);
+  });
+}
+
+void RegionFinder::growFrom(std::uint32_t seed) {
+  const auto region = static_cast<std::uint32_t>(evidence_.size());
+  const FaceShape plane(mesh_, seed);
+  const Vec3d normal = normals_[seed];
+  Evidence evidence;
+  regions_.ofFace[seed] = region;
+  front_.assign(1, seed);
+  for (std::size_t faces = 1; !front_.empty(); ++faces) {
+    if (faces % kProgressBlock == 0) progress_.advance(0);
+    const std::uint32_t f = front_.back();
+    front_.pop_back();
+    const double deviation = angleBetween(normal, normals_[f]);
+    evidence.area += areas_[f];
+    evidence.squares += areas_[f] * deviation * deviation;
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      const std::uint32_t side = edges_.across({3 * f + c});
+      if (side == kNone || regions_.ofFace[side / 3] != kNone) continue;
+      if (!liesIn(side / 3, normal, plane.corners[0], plane.ulp)) continue;
+      regions_.ofFace[side / 3] = region;
+      front_.push_back(side / 3);
+    }
+  }
+  evidence_.push_back(evidence);
+}
+
+/// The face is within the angle of the plane; or within rounding of it, which may turn thin faces by more.
+bool RegionFinder::liesIn(std::uint32_t face, const Vec3d& normal, const Vec3d& origin, double ulp) const {
+  if (!hasPlane(face)) return false;
+  if (angleBetween(normal, normals_[face]) <= flat_) return true;
+  if (dot(normal, normals_[face]) <= 0) return false;
+  const FaceShape shape(mesh_, face);
+  const double most = kPlaneUlps * std::max(ulp, shape.ulp);
+  return std::all_of(shape.corners.begin(), shape.corners.end(),
+                     [&](const Vec3d& p) { return std::abs(dot(normal, p - origin)) <= most; });
+}
+
+void RegionFinder::judge() {
+  std::vector<bool> onBorder(edges_.points);
+  passes_.forEach(edges_.size(), [&](std::size_t e) { judgeEdge(edges_[e], onBorder); });
+  passes_.forEach<std::uint32_t>(mesh_.triangles.size(), [&](std::uint32_t f) {
+    if (regions_.ofFace[f] == kNone) return;
+    for (const std::uint32_t p : edges_.faces[f]) {
+      if (!onBorder[p]) evidence_[regions_.ofFace[f]].innerPoint = true;
+    }
+  });
+}
+
+void RegionFinder::judgeEdge(std::span<const FaceSide> sides, std::vector<bool>& onBorder) {
+  const auto regionOf = [this](FaceSide s) { return regions_.ofFace[s.face()]; };
+  const bool inside = sides.size() == 2 && regionOf(sides[0]) != kNone && regionOf(sides[0]) == regionOf(sides[1]) &&
+                      edges_.ascends(sides[0]) != edges_.ascends(sides[1]);
+  if (inside) return;
+  onBorder[edges_.pointAt(sides[0].first())] = onBorder[edges_.pointAt(sides[0].second())] = true;
+  if (sides.size() != 2 || !isRounded(sides[0], sides[1])) return;
+  for (const FaceSide s : sides) evidence_[regionOf(s)].roundedBorder = true;
+}
+
+/// The surface goes on from one region to another across this edge with a bend that shading hides.
+bool RegionFinder::isRounded(FaceSide s, FaceSide t) const {
+  if (!hasPlane(s.face()) || !hasPlane(t.face()) || regions_.ofFace[s.face()] == regions_.ofFace[t.face()])
+    return false;
+  const bool alike = edges_.ascends(s) != edges_.ascends(t);
+  const double angle = angleBetween(normals_[s.face()], alike ? normals_[t.face()] : -normals_[t.face()]);
+  return angle <= crease_ && (alike || angle > flat_) && normalsGoOn(s, t);
+}
+
+bool RegionFinder::normalsGoOn(FaceSide s, FaceSide t) const {
+  if (mesh_.vertexNormals.empty() && mesh_.cornerNormals.empty()) return true;
+  const bool alike = edges_.ascends(s) != edges_.ascends(t);
+  const std::uint32_t first = alike ? t.second() : t.first(), second = alike ? t.first() : t.second();
+  const auto agree = [&](std::uint32_t a, std::uint32_t b) {
+    return angleBetween(Vec3d(fileNormal(a)), Vec3d(fileNormal(b))) <= flat_;
+  };
+  return agree(s.first(), first) && agree(s.second(), second);
+}
+
+Vec3f RegionFinder::fileNormal(std::uint32_t corner) const {
+  if (!mesh_.cornerNormals.empty()) return mesh_.cornerNormals[corner];
+  return mesh_.vertexNormals[mesh_.triangles[corner / 3][corner % 3]];
+}
+
+void RegionFinder::number() {
+  const double most = kFlatShare * flat_;
+  std::vector<std::uint32_t> numbers(evidence_.size(), kNone);
+  std::vector<bool> flat(evidence_.size());
+  for (std::size_t r = 0; r < evidence_.size(); ++r) {
+    const Evidence& e = evidence_[r];
+    flat[r] = !e.roundedBorder || (e.innerPoint && e.squares <= most * most * e.area);
+  }
+  passes_.forEach(mesh_.triangles.size(), [&](std::size_t f) {
+    std::uint32_t& region = regions_.ofFace[f];
+    if (region == kNone) return;
+    if (flat[region] && numbers[region] == kNone) numbers[region] = static_cast<std::uint32_t>(regions_.count++);
+    region = numbers[region];
+  });
+}
+
+void checkAngles(const FlatOptions& options) {
+  if (!(options.flatDegrees >= 0 && options.flatDegrees <= 45)) {
+    throw usageError("flat faces are to deviate by " + std::to_string(options.flatDegrees) + " degrees",
+                     "give an angle from 0 to 45");
+  }
+  if (!(options.creaseDegrees >= 0 && options.creaseDegrees <= 180)) {
+    throw usageError("the crease angle is " + std::to_string(options.creaseDegrees) + " degrees",
+                     "give an angle from 0 to 180");
+  }
+}
+
+}  // namespace
+
+FlatRegions findFlatRegions(const Mesh& mesh, const EdgeTable& edges, const FlatOptions& options, Progress& progress) {
+  checkAngles(options);
+  return RegionFinder(mesh, edges, options, progress).run();
+}
+
+std::vector<std::uint32_t> flatRegionOfFace(const Mesh& mesh, const FlatOptions& options, Progress& progress) {
+  Passes passes(progress, "edges", mesh.triangles.size(), "faces", kEdgeTablePasses);
+  const EdgeTable edges = edgeTableOf(mesh, passes);
+  passes.end();
+  return findFlatRegions(mesh, edges, options, progress).ofFace;
+}
+
+}  // namespace shbake

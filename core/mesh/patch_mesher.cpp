@@ -1,0 +1,189 @@
+// Plane triangulations by CGAL (L. P. Chew, "Constrained Delaunay triangulations", Algorithmica 1989). This file alone
+// of its folder is compiled with CGAL's -frounding-math.
+#include "mesh/patch_mesher.h"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <algorithm>
+
+namespace shbake {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
+using FaceBase = CGAL::Triangulation_face_base_with_info_2<std::uint32_t, Kernel,
+                                                           CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using Delaunay =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+                                               CGAL::No_constraint_intersection_requiring_constructions_tag>;
+using VertexHandle = Delaunay::Vertex_handle;
+using FaceHandle = Delaunay::Face_handle;
+
+constexpr std::uint32_t kNone = PatchLocator::kNone;
+constexpr std::uint32_t kInside = 0;
+// Points inserted between two counts: some milliseconds.
+constexpr std::size_t kCountedPoints = 1 << 12;
+
+class Triangulation {
+ public:
+  explicit Triangulation(const PointCounter& count) : count_(count) {}
+
+  /// Adds points, best in an order in which neighbours follow each other. False where two coincide.
+  bool insert(std::span<const Point2> points) {
+    for (const Point2& p : points) {
+      const VertexHandle v = delaunay.insert(Kernel::Point_2(p.x, p.y), hint_);
+      if (delaunay.number_of_vertices() == vertices.size()) return false;
+      v->info() = static_cast<std::uint32_t>(vertices.size());
+      vertices.push_back(v);
+      hint_ = v->face();
+      tick();
+    }
+    return true;
+  }
+
+  /// Makes a..b an edge for good. False where another constraint or a point is in its way.
+  bool constrain(std::uint32_t a, std::uint32_t b) {
+    tick();
+    try {
+      delaunay.insert_constraint(vertices[a], vertices[b]);
+    } catch (const Delaunay::Intersection_of_constraints_exception&) {
+      return false;
+    }
+    return delaunay.is_edge(vertices[a], vertices[b]);
+  }
+
+  /// The face on the left of the edge a..b, which exists.
+  FaceHandle leftOf(std::uint32_t a, std::uint32_t b) const {
+    FaceHandle face;
+    int i = 0;
+    delaunay.is_edge(vertices[a], vertices[b], face, i);
+    return face->vertex(Delaunay::ccw(i)) == vertices[a] ? face : face->neighbor(i);
+  }
+
+  void unmark() {
+    for (const FaceHandle face : delaunay.all_face_handles()) face->info() = kNone;
+  }
+
+  Delaunay delaunay;
+  std::vector<VertexHandle> vertices;
+
+ private:
+  void tick() {
+    if (++done_ % kCountedPoints == 0) count_(kCountedPoints);
+  }
+
+  const PointCounter& count_;
+  std::size_t done_ = 0;
+  FaceHandle hint_{};
+};
+
+/// Marks what the border encloses; false where that reaches the outside.
+bool markInside(Triangulation& all, std::span<const std::array<std::uint32_t, 2>> border) {
+  all.unmark();
+  std::vector<FaceHandle> front;
+  const auto take = [&](FaceHandle face) {
+    if (face->info() == kInside) return;
+    face->info() = kInside;
+    front.push_back(face);
+  };
+  for (const auto& [a, b] : border) take(all.leftOf(a, b));
+  while (!front.empty()) {
+    const FaceHandle face = front.back();
+    front.pop_back();
+    if (all.delaunay.is_infinite(face)) return false;
+    for (int i = 0; i < 3; ++i) {
+      if (!face->is_constrained(i)) take(face->neighbor(i));
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+struct PatchLocator::State {
+  explicit State(const PointCounter& count) : all(count) {}
+
+  Triangulation all;
+  bool valid = false;
+  FaceHandle hint{};
+
+  bool build(std::span<const Point2> points, std::span<const Triangle> faces) {
+    if (!all.insert(points)) return false;
+    for (const Triangle& t : faces) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!all.constrain(t[k], t[(k + 1) % 3])) return false;
+      }
+    }
+    all.unmark();
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+      const auto& [a, b, c] = faces[f];
+      const FaceHandle face = all.leftOf(a, b);
+      if (face->info() != kNone || !face->has_vertex(all.vertices[c]) || all.delaunay.is_infinite(face)) return false;
+      face->info() = f;
+    }
+    return true;
+  }
+};
+
+PatchLocator::PatchLocator(std::span<const Point2> points, std::span<const Triangle> faces, const PointCounter& count)
+    : state_(std::make_unique<State>(count)) {
+  state_->valid = state_->build(points, faces);
+}
+
+PatchLocator::~PatchLocator() = default;
+
+bool PatchLocator::valid() const {
+  return state_->valid;
+}
+
+std::uint32_t PatchLocator::find(Point2 place) {
+  const Delaunay& delaunay = state_->all.delaunay;
+  Delaunay::Locate_type type = Delaunay::FACE;
+  int i = 0;
+  const FaceHandle face = delaunay.locate(Kernel::Point_2(place.x, place.y), type, i, state_->hint);
+  if (!delaunay.is_infinite(face)) state_->hint = face;
+  if (face->info() != kNone || type == Delaunay::FACE) return face->info();
+  if (type == Delaunay::EDGE) return face->neighbor(i)->info();
+  if (type != Delaunay::VERTEX) return kNone;
+  auto around = delaunay.incident_faces(face->vertex(i));
+  for (const auto first = around; around->info() == kNone;) {
+    if (++around == first) return kNone;
+  }
+  return around->info();
+}
+
+std::optional<std::vector<Triangle>> triangulatePatch(std::span<const Point2> points,
+                                                      std::span<const std::array<std::uint32_t, 2>> border,
+                                                      const PointCounter& count) {
+  Triangulation all(count);
+  if (!all.insert(points)) return std::nullopt;
+  for (const auto& [a, b] : border) {
+    if (!all.constrain(a, b)) return std::nullopt;
+  }
+  // A constraint made later may have been cut by none, but an edge that was there before may have become part of it.
+  for (const auto& [a, b] : border) {
+    if (!all.delaunay.is_edge(all.vertices[a], all.vertices[b])) return std::nullopt;
+  }
+  if (!markInside(all, border)) return std::nullopt;
+  std::vector<Triangle> faces;
+  std::size_t constrained = 0;
+  std::vector<bool> used(points.size());
+  for (const FaceHandle face : all.delaunay.finite_face_handles()) {
+    if (face->info() != kInside) continue;
+    Triangle t{};
+    for (int k = 0; k < 3; ++k) {
+      t[static_cast<std::size_t>(k)] = face->vertex(k)->info();
+      constrained += face->is_constrained(k);
+      used[face->vertex(k)->info()] = true;
+    }
+    faces.push_back(t);
+  }
+  // Each pair is a side of the face on its left; were there more such sides, the inside would reach over some pair.
+  if (constrained != border.size() || std::find(used.begin(), used.end(), false) != used.end()) return std::nullopt;
+  return faces;
+}
+
+}  // namespace shbake
