@@ -1,0 +1,76 @@
+// Vertex values for what lies between the vertices (Kavan, Bargteil, Sloan, "Least Squares Vertex Baking", Computer
+// Graphics Forum 30(4), EGSR 2011).
+//
+// A vertex of a coarse mesh that has the true transfer of its own place may still give wrong pictures: at the foot of a
+// wall it is as dark as the corner, and interpolation carries that darkness across the whole face. A fit gives each
+// lighting point the value with which the interpolated transfer is nearest to the true one over the surface, by rays
+// from places between the vertices. How much of it is taken is decided by measurement: samples that the fit has not
+// seen tell, region by region, whether it helps there.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bake/baker.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "mesh/lighting_points.h"
+
+namespace shbake {
+
+/// What baked values of vertices are for.
+enum class FitKind {
+  automatic,  ///< fitted to the surface, or smoothed, where samples show that it helps
+  vertex,     ///< the transfer at the vertex itself
+  surface,    ///< fitted to the surface everywhere
+};
+
+struct SurfaceFitOptions {
+  FitKind kind = FitKind::vertex;
+  /// Places on the surface for each lighting point, 1..64, to which the values are fitted.
+  int samplesPerPoint = 4;
+  /// Rays from each of these places, 16..65536; 0: a quarter of the bake's, 32 to 256, so that a fit at the default
+  /// number of places takes about the time of the bake.
+  int raysPerSample = 0;
+};
+
+/// Throws a usage error that names the first option out of its range.
+void validate(const SurfaceFitOptions& options);
+
+/// An error measured at samples of the surface that had no part in the fit.
+struct HeldOutError {
+  double rms = 0;            ///< as SurfaceError::rms, free of the noise of the rays
+  double low = 0, high = 0;  ///< its 95 % confidence interval
+};
+
+/// What came of a fit.
+struct FitReport {
+  std::string reason;              ///< why values were changed, or not; one sentence without a full stop
+  std::size_t fittedPoints = 0;    ///< lighting points that took some of the fit
+  std::size_t smoothedPoints = 0;  ///< lighting points that took some of the smoothing
+  std::size_t regions = 0;         ///< parts of the surface that were judged by themselves
+  std::size_t fittedRegions = 0;   ///< those among them that took some of the fit
+  std::size_t samples = 0;         ///< places that were fitted to
+  std::size_t heldOut = 0;         ///< places that judged
+  double rays = 0;                 ///< traced for both
+  double ridge = 0;                ///< how many times the mass of its samples a point's own value weighed
+  HeldOutError before, after;      ///< none where there were no samples
+};
+
+/// Replaces baked transfer by what is best interpolated. `baked` is what bakePoints() gave for the same points, wanted
+/// points and options; only its coefficients change, and those of points that are not wanted do not. Its stated errors
+/// and visibility stay those of the points as they were traced: a fitted value is off from the transfer at the vertex
+/// on purpose, and `after` says how well it does.
+///   vertex: nothing is done. automatic: a pilot measures the surface error, tries smoothing (smoothing.h), and stops
+///   where interpolation errs less than the noise of the rays; else values are fitted, and each region takes as much of
+///   the fit as the pilot's samples show to help. surface: values are fitted everywhere, unasked.
+/// Unshadowed transfer stays as it is. Deterministic: depends on points, options and seed only. Memory: about 16 bytes
+/// for each coefficient of the result, 600 a point, and 200 MB for each million samples in a batch of at most one
+/// million; `bake.memory` changes nothing. Throws as bakePoints(), and leaves `baked` as it was then.
+FitReport fitToSurface(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, PointBake& baked,
+                       const BakeOptions& bake, const SurfaceFitOptions& options, const Parallel& parallel,
+                       Progress& progress);
+
+}  // namespace shbake
