@@ -19,6 +19,18 @@ void describeError(const TransferFacts& facts, Report& report) {
   report.line("", "(standard error, relative to the unshadowed transfer)");
 }
 
+void describeFit(const FitFacts& fit, Report& report) {
+  report.data("fit.smoothed_points", static_cast<std::int64_t>(fit.smoothedPoints));
+  report.data("fit.error_before", fit.before);
+  report.data("fit.error_after", fit.after);
+  std::string text;
+  if (fit.fittedPoints > 0) text = formatCount(fit.fittedPoints) + " points fitted to the surface";
+  if (fit.smoothedPoints > 0) text += (text.empty() ? "" : ", ") + formatCount(fit.smoothedPoints) + " points smoothed";
+  report.fact("fit.points", static_cast<std::int64_t>(fit.fittedPoints), "fit", text);
+  report.line("", "(surface error " + formatPercent(fit.before) + " before, " + formatPercent(fit.after) +
+                      " after; the stated error is that of the vertices as traced)");
+}
+
 }  // namespace
 
 void describeTransfer(const TransferSet& set, const TransferFacts* facts, Report& report) {
@@ -46,6 +58,7 @@ void describeTransfer(const TransferSet& set, const TransferFacts* facts, Report
                                         : std::to_string(facts->bounces));
   }
   describeError(*facts, report);
+  if (facts->fit.any()) describeFit(facts->fit, report);
   if (facts->surface.samples > 0) describeSurface(facts->surface, report);
 }
 

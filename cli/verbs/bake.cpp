@@ -32,7 +32,8 @@ class Bake : public Verb {
   BakeMeshOptions options_;
   BakedPlyOptions ply_;
   bool force_ = false;
-  CLI::Option *rays_ = nullptr, *tolerance_ = nullptr, *bounces_ = nullptr, *seed_ = nullptr, *crease_ = nullptr;
+  CLI::Option *rays_ = nullptr, *tolerance_ = nullptr, *bounces_ = nullptr, *seed_ = nullptr, *crease_ = nullptr,
+              *fit_ = nullptr;
 };
 
 void Bake::declare(CLI::App& app) {
@@ -79,6 +80,12 @@ void Bake::declareTransfer(CLI::App& app) {
 }
 
 void Bake::declareSurface(CLI::App& app) {
+  fit_ = addChoice<FitKind>(
+      app,
+      {"--fit", "KIND",
+       "vertex: the transfer at the vertices; surface: what interpolates best between them, in about twice the time; "
+       "auto: fitted or smoothed where samples show that it helps"},
+      options_.fit.kind, {{"auto", FitKind::automatic}, {"vertex", FitKind::vertex}, {"surface", FitKind::surface}});
   addSwitch(app, "--two-sided", options_.bake.twoSided, "faces reflect from both sides (they block from both anyway)");
   app.add_option("--blockers", blockers_, "meshes that cast shadows and reflect but are not baked themselves")
       ->type_name("FILE...");
@@ -143,6 +150,7 @@ void Bake::warnOfIdleOptions(Session& session) const {
   const TransferKind kind = options_.bake.kind;
   const std::string with = std::string(" has no effect with --transfer ") + transferName(kind);
   if (kind == TransferKind::unshadowed) {
+    if (fit_->count() > 0) session.warn("--fit" + with);
     if (rays_->count() > 0) session.warn("--rays" + with);
     if (tolerance_->count() > 0) session.warn("--tolerance" + with);
     if (seed_->count() > 0) session.warn("--seed" + with);
@@ -215,6 +223,9 @@ void Bake::describe(const BakedMesh& baked, const std::vector<std::string>& find
   for (std::size_t i = 0; i < findings.size(); ++i) report.line(i == 0 ? "check" : "", findings[i]);
   report.fact("albedo", baked.albedoNote, "albedo", baked.albedoNote);
   describeTransfer(baked.transfer, &facts, report);
+  if (!baked.fitNote.empty())
+    report.fact("fit.reason", baked.fitNote, facts.fit.any() ? "" : "fit",
+                (facts.fit.any() ? "" : "none: ") + baked.fitNote);
   describeTime(session);
   report.data("output.file", output_);
   report.data("output.vertices", whole(baked.transfer.size()));

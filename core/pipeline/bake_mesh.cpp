@@ -143,6 +143,7 @@ void warn(BakedMesh& result, const PointBake& baked, const LightingPoints& point
 BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshOptions& options,
                    const Parallel& parallel, Progress& progress) {
   validate(options.bake);
+  validate(options.fit);
   if (options.surfaceSamples > 0) validate(SurfaceErrorOptions{options.surfaceSamples});
   // Among blockers, nobody else would notice.
   if (mesh.triangles.empty()) {
@@ -165,11 +166,15 @@ BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshO
 
   // Transfer of every lighting point.
   const std::vector<std::uint8_t> wanted = wantedPoints(points, outputs);
-  const PointBake baked = bakePoints(points, wanted, options.bake, parallel, progress);
+  PointBake baked = bakePoints(points, wanted, options.bake, parallel, progress);
+  const FitReport fit = fitToSurface(points, wanted, baked, options.bake, options.fit, parallel, progress);
 
   // Back to the mesh.
   result.transfer = expand(baked.transfer, points, outputs);
   result.facts = describe(baked, options.bake);
+  const FitFacts changed{fit.fittedPoints, fit.smoothedPoints, fit.before.rms, fit.after.rms};
+  if (changed.any()) result.facts.fit = changed;
+  if (options.fit.kind != FitKind::vertex) result.fitNote = fit.reason;
   result.facts.albedo = describe(scene.albedo.albedo, options.albedo);
   result.facts.lightingPoints = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 1));
   result.facts.sourceVertices = vertices;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bake/bake_options.h"
+#include "bake/surface_fit.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "mesh/lighting_points.h"
@@ -20,6 +21,8 @@ struct BakeMeshOptions {
   LightingPointOptions points;
   AlbedoOptions albedo;
   BakeOptions bake;
+  /// Whether vertices get their own transfer, as is the default, or what interpolates best between them.
+  SurfaceFitOptions fit;
   /// Points at which the surface error is measured after the bake (bake/surface_error.h), 16..1048576; 0: it is not.
   std::size_t surfaceSamples = 0;
 };
@@ -31,6 +34,7 @@ struct BakedMesh {
   std::vector<std::uint32_t> sourceVertex;  ///< the input's vertex behind each vertex; empty where they map 1:1
   TransferFacts facts;
   std::string albedoNote;             ///< what albedo was taken, for reports: "vertex colours, 8-bit sRGB decoded"
+  std::string fitNote;                ///< what the fit did and why, for reports; empty where none was asked for
   std::vector<std::string> warnings;  ///< what the user should know, one sentence each
 };
 

@@ -27,6 +27,14 @@ constexpr FixedFact kFrameFacts[] = {
 // In the order of AlbedoOrigin.
 constexpr const char* kAlbedoOrigins[] = {"unknown", "uniform", "vertex_colors", "face_colors"};
 
+// What transfer stands for: the vertices, the vertices smoothed over their neighbours, or the surface between them.
+constexpr const char* kFits[] = {"vertex", "smoothed", "surface"};
+
+/// The place in kFits of what was done.
+std::size_t fitOf(const FitFacts& fit) {
+  return fit.fittedPoints > 0 ? 2 : fit.smoothedPoints > 0 ? 1 : 0;
+}
+
 std::string escaped(std::string_view text) {
   constexpr char kDigits[] = "0123456789ABCDEF";
   std::string result;
@@ -223,6 +231,22 @@ SurfaceError parseSurface(FactReader& reader) {
   return surface;
 }
 
+FitFacts parseFit(FactReader& reader) {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  constexpr std::size_t kMostSize = std::numeric_limits<std::size_t>::max();
+  FitFacts fit;
+  const auto kind = reader.choice("fit", {kFits[0], kFits[1], kFits[2]});
+  fit.fittedPoints = reader.number<std::size_t>("fit_points", 0, kMostSize).value_or(0);
+  fit.smoothedPoints = reader.number<std::size_t>("fit_smoothed", 0, kMostSize).value_or(0);
+  fit.before = reader.number("fit_error_before", 0.0, kMost).value_or(0);
+  fit.after = reader.number("fit_error_after", 0.0, kMost).value_or(0);
+  if (kind && *kind != fitOf(fit)) {
+    reader.fail("fit", std::string("'") + kFits[*kind] + "' contradicts fit_points and fit_smoothed",
+                "correct the comment, or bake the mesh anew");
+  }
+  return fit;
+}
+
 TransferFacts parseHistory(FactReader& reader) {
   TransferFacts facts;
   constexpr int kMostInt = std::numeric_limits<int>::max();
@@ -246,6 +270,7 @@ TransferFacts parseHistory(FactReader& reader) {
   facts.maxDistance = reader.number("max_distance", std::numeric_limits<double>::denorm_min(), kMostDouble)
                           .value_or(std::numeric_limits<double>::infinity());
   facts.blockers = reader.number<std::size_t>("blockers", 0, kMostSize).value_or(0);
+  facts.fit = parseFit(reader);
   facts.surface = parseSurface(reader);
   facts.lightingPoints = reader.number<std::size_t>("lighting_points", 0, kMostSize).value_or(0);
   facts.sourceVertices = reader.number<std::size_t>("source_vertices", 0, kMostSize).value_or(0);
@@ -262,6 +287,16 @@ std::optional<std::string> limitsComment(const TransferFacts& facts) {
   if (limited) line.add("max_distance", facts.maxDistance);
   if (facts.blockers > 0) line.add("blockers", facts.blockers);
   return line.text();
+}
+
+std::string fitComment(const FitFacts& fit) {
+  return FactLine()
+      .add("fit", kFits[fitOf(fit)])
+      .add("fit_points", fit.fittedPoints)
+      .add("fit_smoothed", fit.smoothedPoints)
+      .add("fit_error_before", fit.before)
+      .add("fit_error_after", fit.after)
+      .text();
 }
 
 std::string surfaceComment(const SurfaceError& surface) {
@@ -332,6 +367,7 @@ std::vector<std::string> factComments(const TransferFacts& facts, int order, int
     comments.push_back(line.text());
   }
   if (const auto limits = limitsComment(facts)) comments.push_back(*limits);
+  if (facts.fit.any()) comments.push_back(fitComment(facts.fit));
   if (facts.surface.samples > 0) comments.push_back(surfaceComment(facts.surface));
   return comments;
 }

@@ -69,6 +69,18 @@ struct SurfaceError {
 /// The source of a vertex that is none of the input's: a refinement made it. -1 in files.
 inline constexpr std::uint32_t kNewVertex = 0xFFFFFFFFu;
 
+/// What was changed of the transfer traced at the vertices, so that it interpolates better (bake/surface_fit.h). The
+/// stated errors and the visibility stay those of the vertices as traced.
+struct FitFacts {
+  std::size_t fittedPoints = 0;    ///< lighting points whose transfer was fitted to the surface
+  std::size_t smoothedPoints = 0;  ///< lighting points whose transfer was smoothed over their neighbours
+  double before = 0;  ///< surface error (SurfaceError::rms) without the change, at samples of the fit's own
+  double after = 0;   ///< and with it
+
+  bool any() const { return fittedPoints + smoothedPoints > 0; }
+  friend bool operator==(const FitFacts&, const FitFacts&) = default;
+};
+
 /// How a transfer set came about: written to and read from file headers.
 struct TransferFacts {
   std::string version;  ///< of the shbake that baked
@@ -88,6 +100,7 @@ struct TransferFacts {
   bool twoSided = false;                                         ///< faces reflected from both sides
   double maxDistance = std::numeric_limits<double>::infinity();  ///< beyond it nothing was seen, in file units
   std::size_t blockers = 0;                                      ///< meshes that blocked and reflected beside this one
+  FitFacts fit{};
   SurfaceError surface{};
 };
 

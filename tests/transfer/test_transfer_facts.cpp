@@ -81,10 +81,20 @@ TEST_CASE("Transfer facts: limits and the surface error are stated where there a
   CHECK(stated.facts.maxDistance == 0.1);
   CHECK(stated.facts.blockers == 2);
   CHECK(stated.facts.surface == facts.surface);
+  facts.fit = {3000, 12, 0.5, 0.25};
+  const std::vector<std::string> fitted = factComments(facts, 3, 3);
+  REQUIRE(fitted.size() == 8);
+  CHECK(fitted[6] == "shbake fit=surface fit_points=3000 fit_smoothed=12 fit_error_before=0.5 fit_error_after=0.25");
+  CHECK(parseFacts(fitted, "a.ply").facts.fit == facts.fit);
+  facts.fit.fittedPoints = 0;
+  CHECK(factComments(facts, 3, 3)[6].starts_with("shbake fit=smoothed fit_points=0 fit_smoothed=12 "));
+  CHECK(parseFacts(factComments(facts, 3, 3), "a.ply").facts.fit == facts.fit);
+  CHECK(parseWith("shbake fit=vertex").facts.fit == FitFacts());
   const TransferFacts silent = parseFacts(factComments(example(), 3, 3), "a.ply").facts;
   CHECK_FALSE(silent.twoSided);
   CHECK(silent.maxDistance == std::numeric_limits<double>::infinity());
   CHECK(silent.blockers == 0);
+  CHECK(silent.fit == FitFacts());
   CHECK(silent.surface == SurfaceError());
 }
 
