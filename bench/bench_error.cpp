@@ -6,7 +6,7 @@
 
 #include "bake/baker.h"
 #include "bake/stated_error.h"
-#include "measure.h"
+#include "chart/methods/cpu_clock.h"
 #include "reference.h"
 #include "scenes.h"
 #include "sh/basis.h"
@@ -72,16 +72,13 @@ std::vector<double> makeReference(const LightingPoints& points, const std::vecto
 }
 
 void measure(const std::string& name, const Options& o, const Parallel& parallel) {
-  const Mesh mesh = namedMesh(name);
-  Albedo albedo;
-  const auto a = static_cast<float>(o.albedo);
-  albedo.values = {Rgb(a, a, a)};
+  const auto albedo = static_cast<float>(o.albedo);
+  const LightingPoints points = namedPoints(name, {albedo, albedo, albedo});
   Progress progress;
-  const LightingPoints points = makeLightingPoints(mesh, {}, albedo, progress);
   const auto chosen = choosePoints(points, o.points);
   const auto areas = pointAreas(points);
   const auto reference = makeReference(points, chosen, o, parallel);
-  const std::string label = name.substr(name.rfind('/') + 1);
+  const std::string label = labelOf(name);
   for (const int rays : o.rays) {
     BakeOptions bake;
     bake.kind = o.interreflected ? TransferKind::interreflected : TransferKind::shadowed;

@@ -9,8 +9,8 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "chart/methods/cpu_clock.h"
 #include "light/environment_map.h"
-#include "measure.h"
 
 namespace {
 
@@ -48,11 +48,11 @@ void measureLayout(MapLayout layout, int width, int height) {
     std::vector<double> seconds;
     for (int run = 0; run < 3; ++run) {
       Progress progress;
-      const double start = cpuSeconds();
+      const double start = chart::cpuSeconds();
       projectEnvironmentMap(rows, order, options, parallel, progress);
-      seconds.push_back(cpuSeconds() - start);
+      seconds.push_back(chart::cpuSeconds() - start);
     }
-    std::printf(" %8.1f", static_cast<double>(width) * height / median(seconds) / 1e6);
+    std::printf(" %8.1f", static_cast<double>(width) * height / chart::median(seconds) / 1e6);
   }
   std::printf("\n");
 }
@@ -79,10 +79,10 @@ void measureHuge(const std::string& folder) {
   writeRadiance(path, width, height);
   const Parallel parallel;
   Progress progress;
-  const double cpu = cpuSeconds(), wall = wallSeconds();
+  const double cpu = chart::cpuSeconds(), wall = chart::wallSeconds();
   projectEnvironmentMap(path, 4, {}, parallel, progress);
   std::printf("%d x %d Radiance file, order 4: %.2f s CPU, %.2f s on %d threads, peak memory of the process %.0f MB\n",
-              width, height, cpuSeconds() - cpu, wallSeconds() - wall, parallel.threads(),
+              width, height, chart::cpuSeconds() - cpu, chart::wallSeconds() - wall, parallel.threads(),
               static_cast<double>(peakMemory()) / 1e6);
   std::filesystem::remove(path);
 }

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "measure.h"
+#include "chart/methods/cpu_clock.h"
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_reader.h"
 #include "mesh/ply_writer.h"
@@ -102,7 +102,7 @@ void measure(const Options& o, const std::string& in, const std::string& out) {
   Progress progress(peaks.callback());
   const Parallel parallel(o.threads);
   restartPeak();
-  const double start = wallSeconds();
+  const double start = chart::wallSeconds();
   Mesh mesh = readMesh(in, progress);
   const std::size_t faces = mesh.triangles.size();
   checkMesh(mesh, progress);
@@ -110,16 +110,16 @@ void measure(const Options& o, const std::string& in, const std::string& out) {
   options.bake.kind = o.shadowed ? TransferKind::shadowed : TransferKind::interreflected;
   options.bake.rays = o.rays;
   options.bake.memory = o.memory * 1'000'000;
-  const double bakeStart = wallSeconds();
+  const double bakeStart = chart::wallSeconds();
   const BakedMesh baked = bakeMesh(std::move(mesh), {}, options, parallel, progress);
-  const double bakeSeconds = wallSeconds() - bakeStart;
+  const double bakeSeconds = chart::wallSeconds() - bakeStart;
   writeBakedPly(out, baked.mesh, baked.transfer, baked.facts, baked.sourceVertex, {}, progress);
   peaks.finish();
   const std::size_t output = outputBytes(baked);
   std::printf(
       "%zu triangles, %d rays, %s: output %.0f MB, peak %.0f MB, %.0f MB beyond the output; %.1f s, bake %.1f s\n",
       faces, o.rays, transferName(options.bake.kind), megabytes(output), megabytes(peaks.highest()),
-      megabytes(peaks.highest() - output), wallSeconds() - start, bakeSeconds);
+      megabytes(peaks.highest() - output), chart::wallSeconds() - start, bakeSeconds);
   for (const std::string& warning : baked.warnings) std::printf("  %s\n", warning.c_str());
 }
 

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
-#include "measure.h"
+#include "chart/methods/cpu_clock.h"
 #include "view/relight.h"
 
 namespace {
@@ -43,11 +43,11 @@ template <class Work>
 double medianSeconds(Work&& work) {
   std::vector<double> seconds;
   for (int run = 0; run < kRuns; ++run) {
-    const double start = cpuSeconds();
+    const double start = chart::cpuSeconds();
     work();
-    seconds.push_back(cpuSeconds() - start);
+    seconds.push_back(chart::cpuSeconds() - start);
   }
-  return median(seconds);
+  return chart::median(seconds);
 }
 
 void printRate(const char* name, const TransferSet& set, double seconds) {

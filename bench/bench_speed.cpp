@@ -7,8 +7,8 @@
 
 #include "bake/baker.h"
 #include "bake/stated_error.h"
-#include "green.h"
-#include "measure.h"
+#include "chart/methods/cpu_clock.h"
+#include "chart/methods/method.h"
 #include "raw_tracing.h"
 #include "reference.h"
 #include "scenes.h"
@@ -29,26 +29,18 @@ struct BakeTime {
   double tracing = 0, reflecting = 0, wall = 0;
 };
 
-double tracingSeconds(const StageClock& clock) {
+double tracingSeconds(const chart::StageClock& clock) {
   return clock.seconds("searching contacts") + clock.seconds("tracing");
 }
 
 BakeTime timeBake(const LightingPoints& points, const BakeOptions& options, int threads) {
-  StageClock clock;
+  chart::StageClock clock;
   Progress progress(clock.callback());
   const Parallel parallel(threads);
-  const double wall = wallSeconds();
+  const double wall = chart::wallSeconds();
   bakePoints(points, {}, options, parallel, progress);
   clock.finish();
-  return {tracingSeconds(clock), clock.seconds("reflecting"), wallSeconds() - wall};
-}
-
-LightingPoints pointsOf(const std::string& name, const Rgb& albedo) {
-  const Mesh mesh = namedMesh(name);
-  Albedo a;
-  a.values = {albedo};
-  Progress progress;
-  return makeLightingPoints(mesh, {}, a, progress);
+  return {tracingSeconds(clock), clock.seconds("reflecting"), chart::wallSeconds() - wall};
 }
 
 void overRaw(const std::string& label, const LightingPoints& points, int rays, int repetitions) {
@@ -66,8 +58,8 @@ void overRaw(const std::string& label, const LightingPoints& points, int rays, i
     overBare.push_back(bake / bare);
     rate.push_back(static_cast<double>(points.size()) * rays / bake / 1e6);
   }
-  std::printf("%-24s %7zu %5d %8.2f %10.3f %10.3f\n", label.c_str(), points.size(), rays, median(rate),
-              median(overFiltered), median(overBare));
+  std::printf("%-24s %7zu %5d %8.2f %10.3f %10.3f\n", label.c_str(), points.size(), rays, chart::median(rate),
+              chart::median(overFiltered), chart::median(overBare));
   std::fflush(stdout);
 }
 
@@ -85,7 +77,7 @@ void scaling(const std::string& label, const LightingPoints& points, int repetit
     threads.push_back(one.wall / two.wall);
     bounces.push_back((three.tracing + three.reflecting) / one.tracing);
   }
-  std::printf("%-24s %14.2f %22.2f\n", label.c_str(), median(threads), median(bounces));
+  std::printf("%-24s %14.2f %22.2f\n", label.c_str(), chart::median(threads), chart::median(bounces));
   std::fflush(stdout);
 }
 
@@ -119,7 +111,7 @@ Curve ourCurve(const LightingPoints& points, const std::vector<std::uint32_t>& c
       options.order = static_cast<int>(std::lround(std::sqrt(static_cast<double>(count))));
       options.rays = rays;
       options.seed = static_cast<std::uint64_t>(i + 1);
-      StageClock clock;
+      chart::StageClock clock;
       Progress progress(clock.callback());
       const PointBake baked = bakePoints(points, {}, options, Parallel(1), progress);
       clock.finish();
@@ -130,8 +122,8 @@ Curve ourCurve(const LightingPoints& points, const std::vector<std::uint32_t>& c
       errors.push_back(relativeError(reference, estimate, count));
       times.push_back(tracingSeconds(clock));
     }
-    curve.error.push_back(median(errors));
-    curve.cpu.push_back(median(times));
+    curve.error.push_back(chart::median(errors));
+    curve.cpu.push_back(chart::median(times));
   }
   return curve;
 }
@@ -143,43 +135,37 @@ void againstGreen(const std::string& label, const LightingPoints& points, int re
   const auto timed = choosePoints(points, 4000);
   const auto reference = directReference(points, chosen, kOrder, 65536, Parallel(1));
   const Curve ours = ourCurve(points, chosen, reference, count, std::min(repetitions, 3));
-  for (const int side : {16, 24, 32, 48}) {
-    std::vector<double> errors, ratios;
+  Progress progress;
+  const chart::TestBed bed(points, Parallel(1), progress);
+  for (const int samples : {256, 576, 1024, 2304}) {
+    std::vector<double> errors, times;
     for (int i = 0; i < repetitions; ++i) {
-      const GreenBake judged = bakeLikeGreen(points, chosen, kOrder, side, static_cast<std::uint64_t>(i + 1));
-      std::vector<double> estimate;
-      for (std::size_t c = 0; c < chosen.size(); ++c) {
-        estimate.insert(estimate.end(), &judged.transfer[c * 3 * count], &judged.transfer[(c * 3 + 1) * count]);
-      }
-      errors.push_back(relativeError(reference, estimate, count));
-      ratios.push_back(bakeLikeGreen(points, timed, kOrder, side, static_cast<std::uint64_t>(i + 1)).cpu);
+      const auto seed = static_cast<std::uint64_t>(i + 1);
+      const chart::Estimate judged = chart::estimateGreen(bed, {chosen, kOrder, samples, seed}, progress);
+      errors.push_back(relativeError(reference, {judged.transfer.begin(), judged.transfer.end()}, count));
+      times.push_back(chart::estimateGreen(bed, {timed, kOrder, samples, seed}, progress).cpu);
     }
-    const double error = median(errors), green = median(ratios), own = ours.cpuAt(error);
-    std::printf("%-24s %8d %8.3f %10.3f %10.3f %10.2f\n", label.c_str(), side * side, 100 * error, green, own,
-                green / own);
+    const double error = chart::median(errors), green = chart::median(times), own = ours.cpuAt(error);
+    std::printf("%-24s %8d %8.3f %10.3f %10.3f %10.2f\n", label.c_str(), samples, 100 * error, green, own, green / own);
     std::fflush(stdout);
   }
-}
-
-std::string labelOf(const std::string& name) {
-  return name.substr(name.rfind('/') + 1);
 }
 
 void run(const Options& o) {
   std::printf("Shadowed bake, order 5, 3 channels, one thread: CPU time over Embree's alone for the same rays\n");
   std::printf("%-24s %7s %5s %8s %10s %10s\n", "mesh", "points", "rays", "Mray/s", "filtered", "unfiltered");
   for (const std::string& name : o.meshes) {
-    const LightingPoints points = pointsOf(name, {0.3f, 0.5f, 0.7f});
+    const LightingPoints points = namedPoints(name, {0.3f, 0.5f, 0.7f});
     for (const int rays : {64, 256, 1024}) overRaw(labelOf(name), points, rays, o.repetitions);
   }
   std::printf("\nOrder 4, 1 channel, 256 rays: wall time of one thread over two; CPU time of 3 bounces over none\n");
   std::printf("%-24s %14s %22s\n", "mesh", "1 / 2 threads", "3 bounces / shadowed");
-  for (const std::string& name : o.meshes) scaling(labelOf(name), pointsOf(name, {0.8f, 0.8f, 0.8f}), o.repetitions);
+  for (const std::string& name : o.meshes) scaling(labelOf(name), namedPoints(name, {0.8f, 0.8f, 0.8f}), o.repetitions);
   if (o.skipGreen) return;
   std::printf(
-      "\nGreen's loop (order 4, 3 channels) and this bake at his error: CPU seconds for all points, without the BVH\n");
+      "\nGreen's loop and this bake (order 4, 1 channel) at his error: CPU seconds for all points, without the BVH\n");
   std::printf("%-24s %8s %8s %10s %10s %10s\n", "mesh", "samples", "error %", "Green", "shbake", "ratio");
-  for (const std::string& name : o.meshes) againstGreen(labelOf(name), pointsOf(name, {1, 1, 1}), o.repetitions);
+  for (const std::string& name : o.meshes) againstGreen(labelOf(name), namedPoints(name, {1, 1, 1}), o.repetitions);
 }
 
 }  // namespace

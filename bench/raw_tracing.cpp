@@ -8,8 +8,8 @@
 
 #include "bake/ray_scene.h"
 #include "base/hash.h"
-#include "embree_scene.h"
-#include "measure.h"
+#include "chart/methods/cpu_clock.h"
+#include "chart/methods/embree_scene.h"
 #include "sh/local_frame.h"
 
 namespace shbake::bench {
@@ -31,7 +31,7 @@ Axes axesOf(const LightingPoints& points, std::size_t p, std::uint64_t seed) {
 }  // namespace
 
 double rawTracing(const LightingPoints& points, const DirectionSet& directions, std::uint64_t seed, bool filtered) {
-  const EmbreeScene embree(points, filtered);
+  const chart::EmbreeScene embree(points, filtered);
   const FlushDenormals flush;
   const auto n = static_cast<std::size_t>(directions.size()), packets = n / 16;
   std::vector<RTCRay> stream(embree.nativePackets() ? 0 : kPoints * n);
@@ -60,7 +60,7 @@ double rawTracing(const LightingPoints& points, const DirectionSet& directions, 
         r.time[k] = 0, r.mask[k] = ~0u, r.id[k] = position, r.flags[k] = 0;
       }
     }
-    const double start = cpuSeconds();
+    const double start = chart::cpuSeconds();
     for (RTCRay16& r : packet) {
       if (&r - packet.data() >= static_cast<std::ptrdiff_t>(count * packets)) break;
       rtcOccluded16(all.data(), embree.scene(), &context, &r);
@@ -70,7 +70,7 @@ double rawTracing(const LightingPoints& points, const DirectionSet& directions, 
       const std::size_t some = std::min(call, count * n - i);
       rtcOccluded1M(embree.scene(), &context, &stream[i], static_cast<unsigned>(some), sizeof(RTCRay));
     }
-    cpu += cpuSeconds() - start;
+    cpu += chart::cpuSeconds() - start;
   }
   return cpu;
 }

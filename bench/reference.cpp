@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "bake/direct_transfer.h"
-#include "bake/point_tracer.h"
+#include "bake/ray_scene.h"
 #include "base/progress.h"
-#include "sh/basis.h"
+#include "chart/sweep/direct.h"
 
 namespace shbake::bench {
 namespace {
@@ -27,22 +26,9 @@ std::vector<double> directReference(const LightingPoints& points, const std::vec
                                     int rays, const Parallel& parallel) {
   Progress progress;
   const RayScene scene(points, std::numeric_limits<float>::infinity(), parallel, progress);
-  const DirectionSet directions(rays, order);
-  const auto count = static_cast<std::size_t>(sh::coefficientCount(order));
-  std::vector<double> reference(chosen.size() * count);
-  parallel.forBlocks(chosen.size(), 4, [&](std::size_t begin, std::size_t end, int) {
-    const FlushDenormals flush;
-    PointTracer tracer(points, scene, directions, kSeed, false);
-    DirectTransfer direct(directions);
-    std::vector<std::uint16_t> sky(static_cast<std::size_t>(directions.groups()));
-    std::vector<float> out(count);
-    for (std::size_t i = begin; i < end; ++i) {
-      tracer.look(chosen[i], sky);
-      direct.evaluate(sky, Vec3d(points.pointNormal[chosen[i]]), tracer.spin(chosen[i]), out);
-      std::copy(out.begin(), out.end(), &reference[i * count]);
-    }
-  });
-  return reference;
+  const std::vector<float> transfer =
+      chart::directTransfer(points, scene, chosen, order, rays, kSeed, parallel, progress);
+  return {transfer.begin(), transfer.end()};
 }
 
 }  // namespace shbake::bench

@@ -40,6 +40,17 @@ Mesh namedMesh(const std::string& name) {
   return readMesh(name, progress);
 }
 
+LightingPoints namedPoints(const std::string& name, const Rgb& albedo) {
+  Albedo uniform;
+  uniform.values = {albedo};
+  Progress progress;
+  return makeLightingPoints(namedMesh(name), {}, uniform, progress);
+}
+
+std::string labelOf(const std::string& name) {
+  return name.substr(name.rfind('/') + 1);
+}
+
 std::vector<std::string> defaultMeshes(const std::string& folder) {
   std::vector<std::string> names{"city", "citycoarse", "cavity4", "blob5", "cornell"};
   for (const char* file : {"stanford-bunny.obj", "igl_armadillo.obj", "rocker-arm.obj", "fandisk.obj", "spot.obj",

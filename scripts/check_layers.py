@@ -24,15 +24,17 @@ EXCEPTIONS = {("bake", "transfer/transfer_set.h")}
 # Code outside core/ includes only this header of it.
 UMBRELLA = "shbake.h"
 UMBRELLA_ONLY = ("cli", "samples", "meshlab_plugin")
+# Folders outside core/ that others may include, and who may.
+SHARED = {"chart": {"chart", "cli", "bench", "tests"}, "cli": {"cli", "tests"}, "bench": {"bench", "tests"}}
 
 # The only layers (or folders outside core/) that may include a third-party library, and in core only from .cpp files.
 OWNERS = {
     "OpenMesh/": {"mesh"},
     "CGAL/": {"mesh", "light"},
-    "embree3/": {"bake", "bench"},
+    "embree3/": {"bake", "chart"},
     "OpenImageIO/": {"light", "view"},
     "tbb/": {"base"},
-    "nlohmann/": {"light", "transfer", "cli"},
+    "nlohmann/": {"light", "transfer", "cli", "chart"},
     "Eigen/": {"bake", "mesh", "view"},
     "CLI/": {"cli", "bench"},
     "vcg/": {"meshlab_plugin"},
@@ -54,6 +56,8 @@ def faults_of(path):
             if in_core and layer in MAY_INCLUDE and target in MAY_INCLUDE and target != layer:
                 if target not in MAY_INCLUDE[layer] and (layer, own[1]) not in EXCEPTIONS:
                     yield number, f"layer {layer} includes {own[1]} of the higher layer {target}"
+            if target in SHARED and parts[0] not in SHARED[target]:
+                yield number, f"{parts[0]}/ includes {own[1]} of {target}/"
             if layer in UMBRELLA_ONLY and target in MAY_INCLUDE:
                 yield number, f"{layer}/ includes {own[1]} instead of {UMBRELLA}"
         other = re.match(r"\s*#\s*include <([^>]+)>", line)
@@ -68,7 +72,7 @@ def faults_of(path):
 
 
 def main():
-    files = [p for d in ("core", "cli", "samples", "bench", "meshlab_plugin", "tests") for p in (ROOT / d).rglob("*")
+    files = [p for d in ("core", "chart", "cli", "samples", "bench", "meshlab_plugin", "tests") for p in (ROOT / d).rglob("*")
              if p.suffix in (".h", ".cpp", ".inc")]
     bad = 0
     for path in sorted(files):

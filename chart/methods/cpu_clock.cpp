@@ -1,16 +1,29 @@
-#include "measure.h"
+// CPU time by the clocks of process and thread.
+#include "chart/methods/cpu_clock.h"
 
 #include <time.h>
 
 #include <algorithm>
 #include <chrono>
 
-namespace shbake::bench {
+namespace shbake::chart {
+
+namespace {
+
+double secondsOf(clockid_t clock) {
+  timespec t{};
+  clock_gettime(clock, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+}  // namespace
 
 double cpuSeconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  return secondsOf(CLOCK_PROCESS_CPUTIME_ID);
+}
+
+double threadCpuSeconds() {
+  return secondsOf(CLOCK_THREAD_CPUTIME_ID);
 }
 
 double wallSeconds() {
@@ -45,4 +58,4 @@ double StageClock::seconds(const std::string& stage) const {
   return sum;
 }
 
-}  // namespace shbake::bench
+}  // namespace shbake::chart

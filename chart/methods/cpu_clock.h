@@ -6,10 +6,12 @@
 
 #include "base/progress.h"
 
-namespace shbake::bench {
+namespace shbake::chart {
 
 /// CPU seconds of the whole process so far, user and system.
 double cpuSeconds();
+/// CPU seconds of the calling thread so far.
+double threadCpuSeconds();
 /// Wall-clock seconds from an arbitrary start.
 double wallSeconds();
 
@@ -33,4 +35,4 @@ class StageClock {
   double start_ = 0;
 };
 
-}  // namespace shbake::bench
+}  // namespace shbake::chart

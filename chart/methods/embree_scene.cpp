@@ -1,10 +1,11 @@
-#include "embree_scene.h"
+// Embree over the faces of lighting points: the scene, and the filter that leaves out neighbours.
+#include "chart/methods/embree_scene.h"
 
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
 
-namespace shbake::bench {
+namespace shbake::chart {
 namespace {
 
 void leaveOut(const RTCFilterFunctionNArguments* args) {
@@ -20,9 +21,15 @@ void leaveOut(const RTCFilterFunctionNArguments* args) {
 }  // namespace
 
 EmbreeScene::EmbreeScene(const LightingPoints& points, bool filtered)
-    : positions_(points.positions), device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
-  for (const Vec3f& p : positions_) near_ = std::max({near_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    : positions_(points.positions), device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
+  Vec3f low = positions_[0], high = low;
+  for (const Vec3f& p : positions_) {
+    near_ = std::max({near_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
   near_ *= 8 * FLT_EPSILON;
+  diagonal_ = length(high - low);
   positions_.emplace_back();
   packets_ = rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
   RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -47,4 +54,4 @@ EmbreeScene::~EmbreeScene() {
   rtcReleaseDevice(device_);
 }
 
-}  // namespace shbake::bench
+}  // namespace shbake::chart

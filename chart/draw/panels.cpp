@@ -1,0 +1,127 @@
+// The panels of a chart from its numbers.
+#include "chart/draw/panels.h"
+
+#include <algorithm>
+
+#include "chart/draw/text.h"
+
+namespace shbake::chart {
+namespace {
+
+constexpr double kPercent = 100;
+
+std::vector<Place> placesOf(const std::vector<CurvePoint>& points) {
+  std::vector<Place> places;
+  for (const CurvePoint& p : points) {
+    if (p.error > 0) places.push_back({p.cpu, kPercent * p.error});
+  }
+  return places;
+}
+
+bool hasPlaces(const Panel& panel) {
+  return std::any_of(panel.series.begin(), panel.series.end(), [](const Series& s) { return !s.places.empty(); });
+}
+
+/// Curves of some groups, the front of them all, and the default.
+Panel speedPanel(const ChartData& data, std::initializer_list<MethodGroup> groups) {
+  Panel panel;
+  panel.x = {"CPU time for the whole mesh in seconds", true};
+  panel.y = {"error in %", true};
+  panel.legend = "in brackets: slope of the error by rays";
+  std::vector<CurvePoint> all{data.defaults};
+  int color = 0;
+  for (const MethodCurve& curve : data.curves) {
+    if (std::find(groups.begin(), groups.end(), curve.method->group) == groups.end()) continue;
+    const bool ours = curve.method->group == MethodGroup::ours;
+    const std::string slope = curve.slope ? " (" + fixedText(*curve.slope, 2) + ")" : "";
+    panel.series.push_back({curve.method->title + slope, ours ? Series::Style::strong : Series::Style::line, color++,
+                            placesOf(curve.points)});
+    all.insert(all.end(), curve.points.begin(), curve.points.end());
+  }
+  const std::vector<bool> front = paretoFront(all);
+  std::vector<CurvePoint> best;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (front[i]) best.push_back(all[i]);
+  }
+  panel.series.push_back({"Pareto front", Series::Style::rings, 0, placesOf(best)});
+  panel.series.push_back(
+      {"default: " + percentText(data.defaultTolerance) + " tolerance, " + std::to_string(data.defaults.rays) + " rays",
+       Series::Style::star, 0, placesOf({data.defaults})});
+  return panel;
+}
+
+Panel directionsPanel(const ChartData& data) {
+  Panel panel = speedPanel(data, {MethodGroup::ours, MethodGroup::directions});
+  panel.name = "directions";
+  panel.title = "Directions: error against CPU time";
+  panel.caption =
+      "16 to 4096 rays a point, all with the same exact exclusion, tracing and sums; the error is that of the "
+      "shadowed transfer against the reference, RMS over the surface, relative to the unshadowed transfer. "
+      "Slopes are exponents of the error by rays, from 64 to 4096. The BVH, which all need, is not counted.";
+  return panel;
+}
+
+Panel programsPanel(const ChartData& data) {
+  Panel panel = speedPanel(data, {MethodGroup::ours, MethodGroup::exclusion, MethodGroup::programs});
+  panel.name = "programs";
+  panel.title = "Other loops and exclusions: error against CPU time";
+  panel.caption =
+      "Curves that level off have errors that more rays do not mend: light that leaks through what was left "
+      "out, or shadows of the surface on itself.";
+  return panel;
+}
+
+Panel ordersPanel(const ChartData& data) {
+  Panel panel;
+  panel.name = "orders";
+  panel.title = "Error against order";
+  panel.x = {"order: bands of spherical harmonics", false};
+  panel.y = {"error in %", true};
+  Series missing{"bands left out", Series::Style::strong, 0, {}};
+  Series lit{"the same under the light", Series::Style::line, 1, {}};
+  Series sampling{"rays (" + std::to_string(data.defaults.rays) + ")", Series::Style::dashed, 2, {}};
+  for (const OrderPoint& p : data.orders) {
+    const auto add = [&](Series& series, double error) {
+      if (error > 0) series.places.push_back({double(p.order), kPercent * error});
+    };
+    add(missing, p.truncation);
+    if (p.lit) add(lit, *p.lit);
+    add(sampling, p.sampling);
+  }
+  panel.series = {missing};
+  if (!data.light.empty()) panel.series.push_back(lit);
+  panel.series.push_back(sampling);
+  panel.caption = "What the bands beyond the order would add, up to order 12: for all lights alike" +
+                  std::string(data.light.empty() ? "" : ", and under " + data.light) +
+                  "; beside it what the rays of the default err within the bands.";
+  return panel;
+}
+
+Panel bouncesPanel(const ChartData& data) {
+  Panel panel;
+  panel.name = "bounces";
+  panel.title = "Error against reflections";
+  panel.x = {"reflections that are summed", false};
+  panel.y = {"error in %", true};
+  Series counted{"summed one by one", Series::Style::strong, 0, {}};
+  Series solved{"default: solved to the tolerance", Series::Style::star, 0, {}};
+  for (const BouncePoint& p : data.bounces.points) {
+    if (p.error > 0) (p.automatic ? solved : counted).places.push_back({double(p.bounces), kPercent * p.error});
+  }
+  panel.series = {counted, solved};
+  panel.caption = "What the reflections beyond these would add, by the same " + std::to_string(data.bounces.rays) +
+                  " rays a point; the solver's place is the number of its steps.";
+  return panel;
+}
+
+}  // namespace
+
+std::vector<Panel> panelsOf(const ChartData& data) {
+  std::vector<Panel> panels;
+  for (Panel panel : {directionsPanel(data), programsPanel(data), ordersPanel(data), bouncesPanel(data)}) {
+    if (hasPlaces(panel)) panels.push_back(std::move(panel));
+  }
+  return panels;
+}
+
+}  // namespace shbake::chart

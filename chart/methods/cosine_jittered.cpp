@@ -1,0 +1,25 @@
+// Cosine-distributed directions, one at random in each cell of a grid.
+#include <array>
+#include <cmath>
+
+#include "base/hash.h"
+#include "chart/methods/table_method.h"
+
+namespace shbake::chart {
+
+Estimate estimateCosineJittered(const TestBed& bed, const Task& task, Progress& progress) {
+  const auto set = [](int rays, std::uint64_t seed) {
+    // The most nearly square grid whose cells are as many as the rays.
+    int rows = static_cast<int>(std::sqrt(rays));
+    while (rays % rows != 0) --rows;
+    const int columns = rays / rows;
+    return cosineDirections(rays, [&](int i) {
+      const auto index = static_cast<std::uint64_t>(i);
+      return std::array{(i % rows + hashUnit(seed, 2 * index)) / rows,
+                        (i / rows + hashUnit(seed, 2 * index + 1)) / columns};
+    });
+  };
+  return estimateByExactTable(bed, task, progress, set, Tables::several);
+}
+
+}  // namespace shbake::chart

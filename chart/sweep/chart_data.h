@@ -1,0 +1,82 @@
+// Everything that a chart shows, as numbers: what measuring hands to drawing.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "chart/methods/method.h"
+#include "chart/sweep/curve.h"
+#include "chart/sweep/reference.h"
+
+namespace shbake::chart {
+
+/// One method at rising effort.
+struct MethodCurve {
+  const Method* method = nullptr;
+  std::vector<CurvePoint> points;  ///< by rising rays
+  std::optional<double> slope;     ///< exponent of the error from 64 to 4096 rays
+  /// What more rays do not mend: the RMS of the error that independent runs share; nothing where it is not beyond
+  /// chance (three standard errors) or was not measured.
+  std::optional<double> systematic;
+};
+
+/// A number of bands: what the missing ones hold, and what rays cost and err in those there are.
+struct OrderPoint {
+  int order = 0;
+  double truncation = 0;  ///< RMS of the bands from `order` up to kTruncationOrder, relative to the unshadowed transfer
+  std::optional<double> lit;  ///< RMS of the radiance that they would add under the light, relative to unshadowed
+  double sampling = 0;        ///< error of the rays within the bands
+  double cpu = 0;             ///< CPU seconds for the whole mesh
+};
+
+/// Bands beyond these are not looked at; of diffuse transfer they hold next to nothing.
+inline constexpr int kTruncationOrder = 12;
+
+/// A number of summed reflections.
+struct BouncePoint {
+  int bounces = 0;         ///< evaluations of the reflection operator: summed reflections, or steps of the solver
+  bool automatic = false;  ///< the solver at the tolerance that is the default
+  double error = 0;        ///< what is missing, relative to the unshadowed transfer
+  double cpu = 0;          ///< CPU seconds of the whole bake
+};
+
+struct BounceStudy {
+  int rays = 0;  ///< 0: not measured
+  std::vector<BouncePoint> points;
+};
+
+/// What to ask for to reach an error.
+struct Advice {
+  double error = 0;
+  bool reachable = false;
+  int rays = 0;
+  double cpu = 0;              ///< CPU seconds of the shadowed bake
+  std::optional<int> bounces;  ///< reflections that keep within the error; nothing where not measured or not enough
+};
+
+struct ChartData {
+  std::string mesh;  ///< its name
+  std::size_t points = 0, faces = 0;
+  int order = 0;
+  std::size_t referencePoints = 0, measuredPoints = 0;  ///< of the sample
+  int referenceRays = 0;
+  double referenceNoise = 0;
+  CacheUse cache = CacheUse::none;
+  double buildSeconds = 0, contactSeconds = 0;  ///< CPU seconds, all of the mesh
+  std::vector<MethodCurve> curves;
+  CurvePoint defaults;  ///< what `shbake bake` takes by itself
+  double defaultTolerance = 0;
+  std::string light;  ///< what OrderPoint::lit is for; empty: none
+  std::vector<OrderPoint> orders;
+  BounceStudy bounces;
+  std::vector<Advice> advice;
+  std::vector<std::string> notes;  ///< what was left out and why, one sentence each
+  double seconds = 0;              ///< that measuring took, by the wall clock
+};
+
+/// The curve of a method; null where it was not measured.
+const MethodCurve* curveOf(const ChartData& data, const char* id);
+
+}  // namespace shbake::chart

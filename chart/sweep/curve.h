@@ -1,0 +1,43 @@
+// Measured points of speed against accuracy, and what is read off them.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace shbake::chart {
+
+/// One setting of one method.
+struct CurvePoint {
+  int rays = 0;            ///< the method's own measure of effort
+  double traced = 0;       ///< rays traced a point, on average
+  double cpu = 0;          ///< CPU seconds for the whole mesh: median of the runs
+  double cpuSpread = 0;    ///< half the range of the runs, relative to `cpu`
+  double error = 0;        ///< RMS of the runs; 0 where nothing is left of it beyond the reference's noise
+  double errorSpread = 0;  ///< standard error of `error` over the runs, relative to it
+  int runs = 0;
+};
+
+/// Whether a point is on the Pareto front of `points`: none takes less time and errs less at once, or is no worse in
+/// one and better in the other.
+std::vector<bool> paretoFront(std::span<const CurvePoint> points);
+
+/// How far a point is from the front of `others`: the largest factor f such that one of them is f times as fast and f
+/// times as accurate, or better; 1 or less: the point is on the front.
+double excessOverFront(const CurvePoint& point, std::span<const CurvePoint> others);
+
+/// The exponent s of error ~ rays^s by least squares in logarithms over points with least <= rays <= most and an error
+/// above 0; nothing for fewer than three of them.
+std::optional<double> slopeOf(std::span<const CurvePoint> points, int least, int most);
+
+/// A setting read off a curve.
+struct Reading {
+  double rays = 0, cpu = 0;
+};
+
+/// The least effort that reaches `error`, by power laws between points in the order of their rays; nothing where no
+/// point does. Where the first point does already, that point.
+std::optional<Reading> effortFor(std::span<const CurvePoint> points, double error);
+
+}  // namespace shbake::chart
