@@ -1,0 +1,145 @@
+// bench_fit: what fitting to the surface gains against more rays for the vertices. For each mesh and number of rays,
+// the error of interpolated transfer at places that no bake has seen, for point sampling, the fit that is chosen by
+// measurement, the fit everywhere, and point sampling with as many rays as take the time of each.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "bake/surface_fit.h"
+#include "bake/surface_fit_choice.h"
+#include "bake/surface_fit_samples.h"
+#include "chart/methods/cpu_clock.h"
+#include "scenes.h"
+
+namespace shbake::bench {
+namespace {
+
+struct Options {
+  std::vector<std::string> meshes;
+  std::vector<int> rays{32, 256, 1024};
+  int order = 4;
+  std::size_t samples = 16384;
+  int referenceRays = 1024;
+  bool interreflected = false;
+  double albedo = 0.8;
+  SurfaceFitOptions fit;
+};
+
+/// One way to bake: its result, what it took, and what became of the fit.
+struct Trial {
+  PointBake baked;
+  FitReport fit;
+  double seconds = 0;
+};
+
+class MeshBench {
+ public:
+  MeshBench(const std::string& name, const Options& options)
+      : options_(options),
+        label_(labelOf(name)),
+        points_(namedPoints(name, Rgb(1, 1, 1) * static_cast<float>(options.albedo))) {}
+
+  void run() {
+    for (const int rays : options_.rays) row(rays);
+  }
+
+ private:
+  BakeOptions bakeOptions(int rays) const {
+    BakeOptions bake;
+    bake.kind = options_.interreflected ? TransferKind::interreflected : TransferKind::shadowed;
+    bake.order = options_.order;
+    bake.rays = rays;
+    bake.tolerance = 1e-3;
+    return bake;
+  }
+
+  Trial bake(int rays, FitKind kind) {
+    const BakeOptions options = bakeOptions(rays);
+    SurfaceFitOptions fit = options_.fit;
+    fit.kind = kind;
+    Trial trial;
+    const double start = chart::cpuSeconds();
+    trial.baked = bakePoints(points_, {}, options, parallel_, progress_);
+    trial.fit = fitToSurface(points_, {}, trial.baked, options, fit, parallel_, progress_);
+    trial.seconds = chart::cpuSeconds() - start;
+    return trial;
+  }
+
+  /// Points with as many rays as take the time of `trial`, by the time of one with `rays`.
+  Trial equalTime(int rays, double rayTime, const Trial& trial) {
+    const double fit = std::max(1.0, (trial.seconds - baseTime_) / rayTime);
+    return bake(std::max(rays, static_cast<int>(fit)), FitKind::vertex);
+  }
+
+  /// Held-out places of a seed of their own, with the light that `senders` send them.
+  HeldOutSamples truth(const TransferSet& senders) {
+    const BakeOptions options = bakeOptions(options_.referenceRays);
+    PlaceTracer tracer(points_, senders, options_.interreflected ? &senders : nullptr, options, parallel_, progress_);
+    std::vector<SurfacePlace> places =
+        drawPlaces(points_, areaWeights(points_, points_.faces.size()), options_.samples, 0x5EED, progress_);
+    PlaceTransfers traced =
+        tracer.trace(places, options_.referenceRays, std::array<std::uint64_t, 2>{0x5EED1, 0x5EED2});
+    return HeldOutSamples(points_, std::move(places), std::move(traced), senders.stride());
+  }
+
+  void row(int rays) {
+    const Trial point = bake(rays, FitKind::vertex), twice = bake(2 * rays, FitKind::vertex);
+    const double rayTime = std::max(1e-9, (twice.seconds - point.seconds) / rays);
+    baseTime_ = std::max(0.0, point.seconds - rays * rayTime);
+    const Trial chosen = bake(rays, FitKind::automatic), fitted = bake(rays, FitKind::surface);
+    const Trial likeChosen = equalTime(rays, rayTime, chosen), likeFitted = equalTime(rays, rayTime, fitted);
+    const HeldOutSamples held = truth(likeFitted.baked.transfer);
+    const auto error = [&](const Trial& t) {
+      return 100 * std::sqrt(std::max(0.0, held.squaredError(t.baked.transfer.coefficients).mean));
+    };
+    const double e = error(point), a = error(chosen), f = error(fitted), la = error(likeChosen), lf = error(likeFitted);
+    std::printf("%-24s %7zu %5d | %7.3f %7.3fs | %7.3f %7.3fs %5.2f %5.2f | %7.3f %7.3fs %5.2f %5.2f | %zu+%zu %s\n",
+                label_.c_str(), points_.size(), rays, e, point.seconds, a, chosen.seconds, a / e, a / la, f,
+                fitted.seconds, f / e, f / lf, chosen.fit.smoothedPoints, chosen.fit.fittedPoints,
+                chosen.fit.reason.c_str());
+    std::fflush(stdout);
+  }
+
+  const Options& options_;
+  std::string label_;
+  Parallel parallel_;
+  Progress progress_;
+  LightingPoints points_;
+  double baseTime_ = 0;  // CPU seconds of a bake besides its rays
+};
+
+}  // namespace
+}  // namespace shbake::bench
+
+int main(int argc, char** argv) {
+  using namespace shbake::bench;
+  CLI::App app{"Compares fitting to the surface with more rays for the vertices"};
+  Options o;
+  app.add_option("meshes", o.meshes, "files or generated meshes; default: all");
+  app.add_option("--rays", o.rays, "ray counts of the vertices, separated by commas")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--order", o.order, "SH bands");
+  app.add_option("--samples", o.samples, "places where errors are measured, an even number");
+  app.add_option("--reference", o.referenceRays, "rays of each of the two sets that measure there");
+  app.add_option("--albedo", o.albedo, "uniform albedo");
+  app.add_option("--fit-samples", o.fit.samplesPerPoint, "places a point that are fitted to");
+  app.add_option("--fit-rays", o.fit.raysPerSample, "rays from each of them; 0: by the bake's");
+  app.add_flag("--interreflected", o.interreflected, "with all reflections instead of the sky alone");
+  CLI11_PARSE(app, argc, argv);
+  if (o.meshes.empty()) o.meshes = defaultMeshes(SHBAKE_SHARED_DIR "/meshes");
+  try {
+    std::printf(
+        "order %d, %s; errors in %% between the vertices, CPU time, error over that of points with the same "
+        "rays and over that of points in the same time; points smoothed + fitted\n",
+        o.order, o.interreflected ? "interreflected" : "shadowed");
+    std::printf("%-24s %7s %5s | %16s | %28s | %28s |\n", "mesh", "points", "rays", "points", "chosen", "fitted");
+    for (const std::string& mesh : o.meshes) MeshBench(mesh, o).run();
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "bench_fit: %s\n", e.what());
+    return 1;
+  }
+  return 0;
+}
