@@ -5,18 +5,6 @@
 
 namespace shbake {
 
-std::uint32_t EdgeTable::partner(FaceSide s) const {
-  if (ofSide[s.side] == kNone) return kNone;
-  const std::span<const FaceSide> all = (*this)[ofSide[s.side]];
-  if (all.size() != 2) return kNone;
-  return all[0].side == s.side ? all[1].side : all[0].side;
-}
-
-std::uint32_t EdgeTable::across(FaceSide s) const {
-  const std::uint32_t other = partner(s);
-  return other != kNone && ascends({other}) != ascends(s) ? other : kNone;
-}
-
 EdgeTable edgeTableOf(const Mesh& mesh, Passes& passes) {
   EdgeTable table;
   std::vector<std::uint32_t> point;

@@ -31,9 +31,17 @@ struct EdgeTable {
   bool ascends(FaceSide s) const { return pointAt(s.first()) < pointAt(s.second()); }
 
   /// The only other side on the edge of `s`; kNone where there is none or more than one.
-  std::uint32_t partner(FaceSide s) const;
+  std::uint32_t partner(FaceSide s) const {
+    if (ofSide[s.side] == kNone) return kNone;
+    const std::span<const FaceSide> all = (*this)[ofSide[s.side]];
+    if (all.size() != 2) return kNone;
+    return all[0].side == s.side ? all[1].side : all[0].side;
+  }
   /// The side across the edge where the surface goes on: the partner, if its face is wound alike; else kNone.
-  std::uint32_t across(FaceSide s) const;
+  std::uint32_t across(FaceSide s) const {
+    const std::uint32_t other = partner(s);
+    return other != kNone && ascends({other}) != ascends(s) ? other : kNone;
+  }
 };
 
 /// The edges of a mesh with at most 1.4e9 faces, indices < V and finite positions, in an order that the order of its

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <tuple>
 
 #include "base/vec3.h"
 #include "mesh/mesh.h"
@@ -29,10 +30,19 @@ inline double magnitudeOf(const Vec3d& p) {
 
 /// `p` as the mesh's file can hold it.
 inline Vec3d storedPosition(const Mesh& mesh, const Vec3d& p) {
-  return mesh.doublePositions ? p : Vec3d(Vec3f(p));
+  if (mesh.doublePositions) return p;
+  // GCC 12 drops the way to float and back of two neighbouring values where it makes vectors of them (-O2 and -O3).
+  const volatile float x = static_cast<float>(p.x), y = static_cast<float>(p.y), z = static_cast<float>(p.z);
+  return {x, y, z};
 }
 
-/// A face of a mesh in space.
+/// An order of positions that does not depend on their numbers.
+inline bool comesBefore(const Vec3d& a, const Vec3d& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+/// A face of a mesh in space. Faces with the same corners, in whatever order, have the same numbers to the last bit,
+/// but for the signs of the area vector: both sides of a doubled sheet are to be cut alike.
 struct FaceShape {
   std::array<Vec3d, 3> corners;
   Vec3d areaVector;   ///< along the normal; its length is twice the area
@@ -41,13 +51,23 @@ struct FaceShape {
 
   FaceShape(const Mesh& mesh, std::uint32_t face) {
     for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh.positions[mesh.triangles[face][k]];
-    const Vec3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
-    areaVector = cross(ab, ac);
+    const std::array<Vec3d, 3> p = sortedCorners();
+    const Vec3d ab = p[1] - p[0], ac = p[2] - p[0];
+    // Two of three corners follow each other as sorted, or as sorted the other way.
+    const bool turned = p[0] == corners[0]   ? p[1] != corners[1]
+                        : p[0] == corners[1] ? p[1] != corners[2]
+                                             : p[1] != corners[0];
+    areaVector = turned ? cross(ac, ab) : cross(ab, ac);
     ulp = coordinateUlp(mesh, std::max({magnitudeOf(corners[0]), magnitudeOf(corners[1]), magnitudeOf(corners[2])}));
-    const double longest = std::max({length(ab), length(ac), length(corners[2] - corners[1])});
+    const double longest = std::max({length(ab), length(ac), length(p[2] - p[1])});
     if (longest > 0) height = length(areaVector) / longest;
   }
 
+  std::array<Vec3d, 3> sortedCorners() const {
+    std::array<Vec3d, 3> sorted = corners;
+    std::sort(sorted.begin(), sorted.end(), comesBefore);
+    return sorted;
+  }
   /// The rounding of its corners does not decide which way it faces.
   bool hasPlane() const { return height > kPlaneUlps * ulp; }
   double area() const { return length(areaVector) / 2; }

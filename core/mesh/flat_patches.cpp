@@ -2,6 +2,7 @@
 #include "mesh/flat_patches.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -32,7 +33,9 @@ class PatchGrower {
     passes.forEach<std::uint32_t>(mesh_.triangles.size(), [&](std::uint32_t f) {
       if (regions_.ofFace[f] != FlatRegions::kNone) seeds.emplace_back(-FaceShape(mesh_, f).area(), f);
     });
-    passes.sort(seeds.begin(), seeds.end(), [](const auto& s, const auto& t) { return s < t; });
+    passes.sort(seeds.begin(), seeds.end(), [this](const auto& s, const auto& t) {
+      return s.first != t.first ? s.first < t.first : precedes(s.second, t.second);
+    });
     passes.forEach(seeds.size(), [&](std::size_t i) {
       if (patches_.ofFace[seeds[i].second] == kNone) growFrom(seeds[i].second);
     });
@@ -41,6 +44,13 @@ class PatchGrower {
   }
 
  private:
+  /// By their corners, whatever their numbers; faces with the same ones by number.
+  bool precedes(std::uint32_t f, std::uint32_t g) const {
+    const std::array<Vec3d, 3> p = FaceShape(mesh_, f).sortedCorners(), q = FaceShape(mesh_, g).sortedCorners();
+    if (p == q) return f < g;
+    return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end(), comesBefore);
+  }
+
   void growFrom(std::uint32_t seed) {
     const auto patch = static_cast<std::uint32_t>(patches_.size());
     const FaceShape plane(mesh_, seed);

@@ -18,13 +18,23 @@ constexpr std::uint32_t kNone = FlatRegions::kNone;
 // a cylinder, a^2 / 3.
 constexpr double kFlatShare = 0.25;
 
+// Angles between unit vectors are compared by the squares of their chords: exact for small ones, and without a root.
+double chordSquared(const Vec3d& a, const Vec3d& b) {
+  const Vec3d d = a - b;
+  return dot(d, d);
+}
+double chordSquaredOf(double degrees) {
+  const double chord = 2 * std::sin(degrees * std::numbers::pi / 360);
+  return chord * chord;
+}
+
 class RegionFinder {
  public:
   RegionFinder(const Mesh& mesh, const EdgeTable& edges, const FlatOptions& options, Progress& progress)
       : mesh_(mesh),
         edges_(edges),
-        flat_(options.flatDegrees * std::numbers::pi / 180),
-        crease_(options.creaseDegrees * std::numbers::pi / 180),
+        flat_(chordSquaredOf(options.flatDegrees)),
+        crease_(chordSquaredOf(options.creaseDegrees)),
         progress_(progress),
         passes_(progress, "finding flat regions", mesh.triangles.size(), "faces", kPasses) {}
 
@@ -43,7 +53,7 @@ class RegionFinder {
 
   // What tells a flat region from a part of a curved one.
   struct Evidence {
-    double area = 0, squares = 0;  // of its faces, and of their deviations weighted by them
+    double area = 0, squares = 0;  // of its faces, and of the chords of their deviations weighted by it
     bool roundedBorder = false;
     bool innerPoint = false;
   };
@@ -63,7 +73,7 @@ class RegionFinder {
 
   const Mesh& mesh_;
   const EdgeTable& edges_;
-  double flat_, crease_;
+  double flat_, crease_;  // squares of chords
   Progress& progress_;
   Passes passes_;
   FlatRegions regions_;
@@ -108,9 +118,8 @@ void RegionFinder::growFrom(std::uint32_t seed) {
     if (faces % kProgressBlock == 0) progress_.advance(0);
     const std::uint32_t f = front_.back();
     front_.pop_back();
-    const double deviation = angleBetween(normal, normals_[f]);
     evidence.area += areas_[f];
-    evidence.squares += areas_[f] * deviation * deviation;
+    evidence.squares += areas_[f] * chordSquared(normal, normals_[f]);
     for (std::uint32_t c = 0; c < 3; ++c) {
       const std::uint32_t side = edges_.across({3 * f + c});
       if (side == kNone || regions_.ofFace[side / 3] != kNone) continue;
@@ -125,7 +134,7 @@ void RegionFinder::growFrom(std::uint32_t seed) {
 /// The face is within the angle of the plane; or within rounding of it, which may turn thin faces by more.
 bool RegionFinder::liesIn(std::uint32_t face, const Vec3d& normal, const Vec3d& origin, double ulp) const {
   if (!hasPlane(face)) return false;
-  if (angleBetween(normal, normals_[face]) <= flat_) return true;
+  if (chordSquared(normal, normals_[face]) <= flat_) return true;
   if (dot(normal, normals_[face]) <= 0) return false;
   const FaceShape shape(mesh_, face);
   const double most = kPlaneUlps * std::max(ulp, shape.ulp);
@@ -159,8 +168,8 @@ bool RegionFinder::isRounded(FaceSide s, FaceSide t) const {
   if (!hasPlane(s.face()) || !hasPlane(t.face()) || regions_.ofFace[s.face()] == regions_.ofFace[t.face()])
     return false;
   const bool alike = edges_.ascends(s) != edges_.ascends(t);
-  const double angle = angleBetween(normals_[s.face()], alike ? normals_[t.face()] : -normals_[t.face()]);
-  return angle <= crease_ && (alike || angle > flat_) && normalsGoOn(s, t);
+  const double bend = chordSquared(normals_[s.face()], alike ? normals_[t.face()] : -normals_[t.face()]);
+  return bend <= crease_ && (alike || bend > flat_) && normalsGoOn(s, t);
 }
 
 bool RegionFinder::normalsGoOn(FaceSide s, FaceSide t) const {
@@ -168,7 +177,7 @@ bool RegionFinder::normalsGoOn(FaceSide s, FaceSide t) const {
   const bool alike = edges_.ascends(s) != edges_.ascends(t);
   const std::uint32_t first = alike ? t.second() : t.first(), second = alike ? t.first() : t.second();
   const auto agree = [&](std::uint32_t a, std::uint32_t b) {
-    return angleBetween(Vec3d(fileNormal(a)), Vec3d(fileNormal(b))) <= flat_;
+    return chordSquared(normalized(Vec3d(fileNormal(a))), normalized(Vec3d(fileNormal(b)))) <= flat_;
   };
   return agree(s.first(), first) && agree(s.second(), second);
 }
@@ -179,12 +188,11 @@ Vec3f RegionFinder::fileNormal(std::uint32_t corner) const {
 }
 
 void RegionFinder::number() {
-  const double most = kFlatShare * flat_;
   std::vector<std::uint32_t> numbers(evidence_.size(), kNone);
   std::vector<bool> flat(evidence_.size());
   for (std::size_t r = 0; r < evidence_.size(); ++r) {
     const Evidence& e = evidence_[r];
-    flat[r] = !e.roundedBorder || (e.innerPoint && e.squares <= most * most * e.area);
+    flat[r] = !e.roundedBorder || (e.innerPoint && e.squares <= kFlatShare * kFlatShare * flat_ * e.area);
   }
   passes_.forEach(mesh_.triangles.size(), [&](std::size_t f) {
     std::uint32_t& region = regions_.ofFace[f];

@@ -4,8 +4,11 @@
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/hilbert_sort.h>
+#include <CGAL/property_map.h>
 
 #include <algorithm>
 
@@ -31,14 +34,26 @@ class Triangulation {
  public:
   explicit Triangulation(const PointCounter& count) : count_(count) {}
 
-  /// Adds points, best in an order in which neighbours follow each other. False where two coincide.
+  /// Adds the points of a patch along a curve on which neighbours follow each other, and which only they decide. False
+  /// where two coincide.
   bool insert(std::span<const Point2> points) {
+    std::vector<Kernel::Point_2> places;
+    std::vector<std::size_t> order;
     for (const Point2& p : points) {
-      const VertexHandle v = delaunay.insert(Kernel::Point_2(p.x, p.y), hint_);
-      if (delaunay.number_of_vertices() == vertices.size()) return false;
-      v->info() = static_cast<std::uint32_t>(vertices.size());
-      vertices.push_back(v);
-      hint_ = v->face();
+      order.push_back(order.size());
+      places.emplace_back(p.x, p.y);
+    }
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return places[a] < places[b]; });
+    const auto placeOf = CGAL::make_property_map(places);
+    CGAL::hilbert_sort(order.begin(), order.end(),
+                       CGAL::Spatial_sort_traits_adapter_2<Kernel, decltype(placeOf)>(placeOf));
+    vertices.resize(points.size());
+    for (const std::size_t i : order) {
+      const std::size_t before = delaunay.number_of_vertices();
+      vertices[i] = delaunay.insert(places[i], hint_);
+      if (delaunay.number_of_vertices() == before) return false;
+      vertices[i]->info() = static_cast<std::uint32_t>(i);
+      hint_ = vertices[i]->face();
       tick();
     }
     return true;
@@ -160,7 +175,14 @@ std::optional<std::vector<Triangle>> triangulatePatch(std::span<const Point2> po
                                                       const PointCounter& count) {
   Triangulation all(count);
   if (!all.insert(points)) return std::nullopt;
-  for (const auto& [a, b] : border) {
+  std::vector<std::array<std::uint32_t, 2>> pieces(border.begin(), border.end());
+  const auto lesserFirst = [&](const std::array<std::uint32_t, 2>& piece) {
+    const Kernel::Point_2 a = all.vertices[piece[0]]->point(), b = all.vertices[piece[1]]->point();
+    return std::minmax(a, b);
+  };
+  std::sort(pieces.begin(), pieces.end(),
+            [&](const auto& s, const auto& t) { return lesserFirst(s) < lesserFirst(t); });
+  for (const auto& [a, b] : pieces) {
     if (!all.constrain(a, b)) return std::nullopt;
   }
   // A constraint made later may have been cut by none, but an edge that was there before may have become part of it.

@@ -45,7 +45,8 @@ class PatchLocator {
 /// The constrained Delaunay triangulation of the inside of `border`: directed pairs of points with the inside on their
 /// left, which form closed loops, or have it on both sides as two opposite pairs. All points lie on the border or
 /// inside it. The faces are counter-clockwise triples of point numbers; each border pair is a side of exactly one face,
-/// and all other sides are shared by two. Nothing where there are no such faces: borders cross, or points coincide.
+/// and all other sides are shared by two. Nothing where there are no such faces: borders cross, or points coincide. The
+/// edges depend on where the points are, not on their order or which side of a border pair is inside.
 std::optional<std::vector<Triangle>> triangulatePatch(std::span<const Point2> points,
                                                       std::span<const std::array<std::uint32_t, 2>> border,
                                                       const PointCounter& count);

@@ -17,9 +17,10 @@ constexpr int kDeepest = 30;
 const double kRowHeight = std::sqrt(3.0) / 2;
 // The steepest that lengths are expected to change with distance (PatchLength of graded fields).
 constexpr double kSteepest = 0.5;
-// Of the side: from the centre to the corners, and as far again as points keep away from obstacles.
+// Of the side: from the centre to the corners; and what points keep away from obstacles, half of what lies between two
+// rows: a border between rows then has the next one at most one and a half rows away.
 constexpr double kCircumradius = 0.5773502691896258;
-constexpr double kClearance = 0.5;
+constexpr double kClearance = 0.4330127018922193;
 constexpr std::size_t kCountedPoints = 1 << 10;
 
 double distanceTo(const PatchObstacle& o, Point2 p) {
@@ -109,19 +110,21 @@ class Tree {
   std::unordered_map<LatticePlace, std::size_t, LatticeHash> numbers_;
 };
 
-/// A triangle around all obstacles whose side is a power of two times the length at the first of them.
+/// A triangle around all obstacles whose side is a power of two times the least length at any of them.
 void Tree::placeRoot() {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Point2 low{kFar, kFar}, high{-kFar, -kFar};
+  double least = kFar;
   for (const PatchObstacle& o : obstacles_) {
     for (const Point2& p : {o.a, o.b}) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
+    least = std::min(least, o.length);
   }
   const double extent = std::max(high.x - low.x, high.y - low.y);
   // Finer than the deepest triangles need not be met, coarser than the patch neither.
-  const double unit = std::clamp(obstacles_[0].length, std::ldexp(extent, 2 - kDeepest), extent);
+  const double unit = std::clamp(least, std::ldexp(extent, 2 - kDeepest), extent);
   const double rowsBelow = std::max(0.0, std::ceil(-low.y / (kRowHeight * unit)));
   origin_.y = -rowsBelow * kRowHeight * unit;
   const double slant = (high.y - origin_.y) / (2 * kRowHeight);

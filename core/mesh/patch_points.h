@@ -31,8 +31,9 @@ using PatchLength = std::function<double(std::uint32_t face, Point2 place)>;
 
 /// Points inside a patch that stand about as far apart as `length` asks: the corners of equilateral triangles that are
 /// halved until they are short enough, on a lattice with the origin on it and rows along x. For a constant length the
-/// triangles have just that side. Points nearer to an obstacle than half the side of their triangle are left out. They
-/// come in an order in which neighbours follow each other. `count` is called with the points found so far unreported.
+/// triangles have just that side. Points nearer to an obstacle than half the height of their triangle are left out.
+/// They come in an order in which neighbours follow each other. `count` is called with the points found so far
+/// unreported.
 std::vector<PatchPoint> spreadPoints(PatchLocator& patch, std::span<const PatchObstacle> obstacles,
                                      const PatchLength& length, const PointCounter& count);
 

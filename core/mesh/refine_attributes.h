@@ -18,6 +18,7 @@ struct Blend {
 
   /// The value here of what is `va`, `vb`, `vc` at a, b, c: exactly so at each of them, and where all are the same.
   double apply(double va, double vb, double vc) const {
+    if (weightB == 0 && weightC == 0) return va;
     if (weightB == 1 && weightC == 0) return vb;
     if (weightB == 0 && weightC == 1) return vc;
     return va + weightB * (vb - va) + weightC * (vc - va);

@@ -38,7 +38,10 @@ class PatchWork {
     std::optional<std::vector<Triangle>> faces = triangulatePatch(places_, pieces_, s_.countDone);
     if (!faces) return std::nullopt;
     out_.faces = std::move(*faces);
-    for (const Triangle& t : out_.faces) out_.sourceFace.push_back(sourceOf(t, locator));
+    for (Triangle& t : out_.faces) {
+      out_.sourceFace.push_back(sourceOf(t, locator));
+      if (turned_) std::swap(t[1], t[2]);
+    }
     return std::move(out_);
   }
 
@@ -63,7 +66,8 @@ class PatchWork {
   PatchMesh out_;
   PatchFrame frame_;
   std::unordered_map<std::uint32_t, std::uint32_t> numbers_;  // of vertices of the mesh
-  std::vector<Triangle> localFaces_;                          // the faces as they were, by point numbers
+  bool turned_ = false;                                       // the faces are clockwise in the frame
+  std::vector<Triangle> localFaces_;  // the faces as they were, by point numbers, counter-clockwise in the frame
   std::vector<FaceSide> border_;
   std::vector<std::array<std::uint32_t, 2>> pieces_;  // of the border, as divided
   std::vector<std::uint32_t> pieceFace_;
@@ -95,23 +99,36 @@ void PatchWork::findBorder() {
   }
 }
 
-/// Rows of new points run along the longest piece of the border, and begin on it.
+/// Rows of new points run along the longest piece of the border, and begin on it. The frame depends on positions alone,
+/// so that the other side of a doubled sheet has the same; there, faces are wound clockwise in it.
 void PatchWork::placeFrame() {
-  FaceSide longest{3 * faces_[0]};
+  const auto endsOf = [this](FaceSide side) {
+    std::array<Vec3d, 2> ends{positionAt(side.first()), positionAt(side.second())};
+    if (comesBefore(ends[1], ends[0])) std::swap(ends[0], ends[1]);
+    return ends;
+  };
+  std::array<Vec3d, 2> longest = endsOf({3 * faces_[0]});
   double most = 0;
   for (const FaceSide side : border_) {
-    const double size = length(positionAt(side.second()) - positionAt(side.first()));
-    if (size > most) {
-      most = size;
-      longest = side;
+    const std::array<Vec3d, 2> ends = endsOf(side);
+    const double size = length(ends[1] - ends[0]);
+    if (size < most) continue;
+    if (size > most ||
+        std::lexicographical_compare(ends.begin(), ends.end(), longest.begin(), longest.end(), comesBefore)) {
+      longest = ends;
     }
+    most = size;
   }
-  frame_.origin = positionAt(longest.first());
+  frame_.origin = longest[0];
   frame_.n = FaceShape(s_.mesh, faces_[0]).normal();
-  const Vec3d along = positionAt(longest.second()) - frame_.origin;
+  turned_ = comesBefore(frame_.n, Vec3d());
+  if (turned_) frame_.n = -frame_.n;
+  const Vec3d along = longest[1] - longest[0];
   frame_.u = normalized(along - frame_.n * dot(along, frame_.n));
   frame_.v = cross(frame_.n, frame_.u);
   for (const std::uint32_t v : out_.vertices) places_.push_back(frame_.project(s_.mesh.positions[v]));
+  if (!turned_) return;
+  for (Triangle& t : localFaces_) std::swap(t[1], t[2]);
 }
 
 /// Cuts the border into pieces, and numbers the points between them. Where both sides of an edge are border, they
@@ -131,7 +148,7 @@ void PatchWork::divideBorder() {
     for (std::uint32_t i = 0; i <= count; ++i) {
       const std::uint32_t step = s_.edges.ascends(side) ? i : count - 1 - i;
       const std::uint32_t to = i == count ? numbers_[vertexAt(side.second())] : first->second + step;
-      pieces_.push_back({from, to});
+      pieces_.push_back(turned_ ? std::array{to, from} : std::array{from, to});
       pieceFace_.push_back(side.face());
       from = to;
     }
