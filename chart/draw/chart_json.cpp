@@ -34,14 +34,16 @@ const char* groupName(MethodGroup group) {
 }
 
 Json curvesJson(const ChartData& data) {
-  std::vector<CurvePoint> all{data.defaults};
+  std::vector<CurvePoint> all;
   for (const MethodCurve& c : data.curves) all.insert(all.end(), c.points.begin(), c.points.end());
+  const std::vector<bool> front = paretoFront(all);
+  std::size_t number = 0;
   Json curves = Json::array();
   for (const MethodCurve& c : data.curves) {
     Json points = Json::array();
     for (const CurvePoint& p : c.points) {
       Json point = pointJson(p);
-      point["on_front"] = excessOverFront(p, all) <= 1;
+      point["on_front"] = static_cast<bool>(front[number++]);
       points.push_back(point);
     }
     curves.push_back({{"method", c.method->id},

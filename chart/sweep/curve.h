@@ -24,7 +24,7 @@ struct CurvePoint {
 std::vector<bool> paretoFront(std::span<const CurvePoint> points);
 
 /// How far a point is from the front of `others`: the largest factor f such that one of them is f times as fast and f
-/// times as accurate, or better; 1 or less: the point is on the front.
+/// times as accurate, or better; below 1 nothing is both faster and more accurate, at 1 something is equal in one.
 double excessOverFront(const CurvePoint& point, std::span<const CurvePoint> others);
 
 /// The exponent s of error ~ rays^s by least squares in logarithms over points with least <= rays <= most and an error
