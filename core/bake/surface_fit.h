@@ -67,8 +67,9 @@ struct FitReport {
 ///   where interpolation errs less than the noise of the rays; else values are fitted, and each region takes as much of
 ///   the fit as the pilot's samples show to help. surface: values are fitted everywhere, unasked.
 /// Unshadowed transfer stays as it is. Deterministic: depends on points, options and seed only. Memory: about 16 bytes
-/// for each coefficient of the result, 600 a point, and 200 MB for each million samples in a batch of at most one
-/// million; `bake.memory` changes nothing. Throws as bakePoints(), and leaves `baked` as it was then.
+/// for each coefficient of the result, 600 a point, and for each sample in a batch of at most a million 150 and one row
+/// of the result, beside the ray scene; `bake.memory` changes nothing. Throws as bakePoints(), and leaves `baked` as it
+/// was then.
 FitReport fitToSurface(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, PointBake& baked,
                        const BakeOptions& bake, const SurfaceFitOptions& options, const Parallel& parallel,
                        Progress& progress);
