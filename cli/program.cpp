@@ -90,7 +90,8 @@ const VerbEntry& findVerb(const std::string& name) {
                    (nearest.empty() ? "" : "did you mean " + nearest + "? ") + "'shbake --help' lists the verbs");
 }
 
-void runVerb(Verb& verb, const VerbEntry& entry, const CommonOptions& common, Interrupt& interrupt) {
+/// The exit code.
+int runVerb(Verb& verb, const VerbEntry& entry, const CommonOptions& common, Interrupt& interrupt) {
   if (common.quiet && common.verbose)
     throw usageError("--quiet and --verbose contradict each other", "give one of them");
   if (!common.json.empty() && common.json != "-") checkWritable(common.json);
@@ -119,6 +120,7 @@ void runVerb(Verb& verb, const VerbEntry& entry, const CommonOptions& common, In
   display.finish();
   interrupt.onHardStop({});
   deliver(report, common);
+  return session.passed ? kDone : kWorkFailed;
 }
 
 int parseAndRun(const std::vector<std::string>& arguments, Interrupt& interrupt) {
@@ -148,8 +150,7 @@ int parseAndRun(const std::vector<std::string>& arguments, Interrupt& interrupt)
   } catch (const CLI::ParseError& error) {
     throw parseFailure(error, app, entry.name);
   }
-  runVerb(*verb, entry, common, interrupt);
-  return kDone;
+  return runVerb(*verb, entry, common, interrupt);
 }
 
 }  // namespace

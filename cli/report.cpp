@@ -26,12 +26,17 @@ void Report::line(std::string label, std::string text) {
   lines_.push_back({std::move(label), std::move(text)});
 }
 
+void Report::raw(std::string text) {
+  raw_ = std::move(text);
+}
+
 void Report::fact(const std::string& key, Value value, std::string label, std::string text) {
   data(key, std::move(value));
   line(std::move(label), std::move(text));
 }
 
 std::string Report::text() const {
+  if (!raw_.empty()) return raw_;
   std::size_t width = 0;
   for (const Line& l : lines_) width = std::max(width, l.label.size());
   std::string all;

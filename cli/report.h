@@ -21,6 +21,8 @@ class Report {
   void data(const std::string& key, Value value);
   /// A line for people only. An empty label continues the line above.
   void line(std::string label, std::string text);
+  /// Text for people only that stands as it is, instead of all lines.
+  void raw(std::string text);
   /// A fact for both.
   void fact(const std::string& key, Value value, std::string label, std::string text);
 
@@ -35,6 +37,7 @@ class Report {
   };
   struct Json;
   std::vector<Line> lines_;
+  std::string raw_;
   std::unique_ptr<Json> json_;
 };
 

@@ -14,7 +14,8 @@ namespace shbake::cli {
   VERB(light)              \
   VERB(sh)                 \
   VERB(relight)            \
-  VERB(render)
+  VERB(render)             \
+  VERB(selftest)
 
 #define SHBAKE_DECLARE(name) extern const VerbEntry name##Verb;
 SHBAKE_VERBS(SHBAKE_DECLARE)

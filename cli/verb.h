@@ -22,6 +22,7 @@ struct Session {
   ProgressDisplay& display;
   Report& report;
   bool verbose = false;
+  bool passed = true;  ///< false: the work was done and reported, but what it tested failed (exit code 1)
 
   /// Tells the user one thing that they should know, now on stderr and in the JSON report.
   void warn(const std::string& sentence);
