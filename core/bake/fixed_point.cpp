@@ -61,9 +61,10 @@ class Solver {
   }
 
   /// Whether column k is solved, now or earlier. From then on it is held, whatever the others still need: further steps
-  /// would make its result depend on them.
+  /// would make its result depend on them. The first residuals alone tell nothing about the error: where g hardly
+  /// contracts, as between white walls around a small hole, they are small however far the solution.
   bool settle(std::size_t k, double tolerance) {
-    if (!settled_[k]) settled_[k] = error(k) <= tolerance;
+    if (!settled_[k]) settled_[k] = error(k) <= (window_.size() == kWindow ? tolerance : 0);
     return settled_[k] != 0;
   }
 

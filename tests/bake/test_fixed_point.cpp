@@ -108,6 +108,17 @@ TEST_CASE("contractions are solved to the tolerance of a dense solve", "[fixed_p
   }
 }
 
+TEST_CASE("a small first residual is no proof of being near", "[fixed_point]") {
+  // White walls all around a hole that lets 1e-4 of the light in and out: all of them are as bright as the sky.
+  const int rows = 64;
+  const double hole = 1e-4;
+  const Problem p{Matrix::Constant(rows, rows, (1 - hole) / rows), {1}, Matrix::Constant(rows, 1, hole)};
+  const FixedPointOptions options{.tolerance = 0.1};
+  const Solved s = solve(p, {0}, options);
+  REQUIRE(s.result.converged);
+  CHECK(errorOf(s, 1, 0, Eigen::VectorXd::Ones(rows)) <= options.tolerance);
+}
+
 TEST_CASE("a column's result does not depend on the columns beside it", "[fixed_point]") {
   const Problem p = randomProblem(80, {0.99, 0, 0.3, 0.9, 0.5, 1}, 7);
   const FixedPointOptions options{1e-3, 200};
