@@ -57,7 +57,7 @@ Outcome measureFurnace(const Bench& bench) {
   if (!bench.brief) {
     meshes.push_back(shapes::bowl(0.15, 16, 32, true));
     meshes.push_back(shapes::bowl(2, 12, 24, true));
-    meshes.push_back(shapes::city(2, 2, 3));
+    meshes.push_back(shapes::openCavity(2, 0.1, 30));
   }
   for (const Mesh& mesh : meshes) {
     outcome.own += wrongUnderWhiteSky(reflected(mesh, 1, BakeOptions::kBouncesAuto, 1024, bench), 1, 1);

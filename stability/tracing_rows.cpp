@@ -111,6 +111,12 @@ Outcome measureLids(const Bench& bench) {
   return judgeSkies(cases, bench);
 }
 
+/// At a gap of 1e-6, some 17 units in the last place of a float, a turn moves the rim of one sheet against the other's
+/// by up to 1/17 of the gap. A vertex on the rim then looks past the other sheet by as many radians more or less, which
+/// is noticeable. Three quarters of the vertices are on the rim, of one pair of sheets in eight: a third of these may
+/// fail.
+constexpr double kRoundedGaps = 1.0 / 32;
+
 #define SHBAKE_VERTEX_FAILS "a vertex fails when its transfer is off by 2 % of an open point's"
 
 constexpr Row kRows[] = {
@@ -131,11 +137,11 @@ constexpr Row kRows[] = {
      "none: always on", SHBAKE_VERTEX_FAILS, 0, measureConcave},
     {"thin-gaps", "tracing", "single sheets, and parallel ones down to 1e-6 apart",
      "light between shelves, leaves and cards", "hits nearer than 1e-4 of the diagonal do not count",
-     "no least distance; contact up to 1 ulp of the coordinates", "none: always on", SHBAKE_VERTEX_FAILS, 0,
+     "no least distance; contact up to 1 ulp of the coordinates", "none: always on", SHBAKE_VERTEX_FAILS, kRoundedGaps,
      measureSheets},
     {"moved-origin", "tracing", "the same sheets, with rays that start above the surface",
      "light between shelves, leaves and cards", "the origin is moved by 1e-4 of the diagonal along the normal",
-     "the origin is the vertex", "none: always on", SHBAKE_VERTEX_FAILS, 0, measureLids},
+     "the origin is the vertex", "none: always on", SHBAKE_VERTEX_FAILS, kRoundedGaps, measureLids},
 };
 
 }  // namespace
