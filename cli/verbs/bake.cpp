@@ -223,9 +223,8 @@ void Bake::describe(const BakedMesh& baked, const std::vector<std::string>& find
   for (std::size_t i = 0; i < findings.size(); ++i) report.line(i == 0 ? "check" : "", findings[i]);
   report.fact("albedo", baked.albedoNote, "albedo", baked.albedoNote);
   describeTransfer(baked.transfer, &facts, report);
-  if (!baked.fitNote.empty())
-    report.fact("fit.reason", baked.fitNote, facts.fit.any() ? "" : "fit",
-                (facts.fit.any() ? "" : "none: ") + baked.fitNote);
+  if (!baked.fitNote.empty()) report.data("fit.reason", baked.fitNote);
+  if (!baked.fitNote.empty() && !facts.fit.any()) report.line("fit", "none: " + baked.fitNote);
   describeTime(session);
   report.data("output.file", output_);
   report.data("output.vertices", whole(baked.transfer.size()));

@@ -170,6 +170,32 @@ TEST_CASE("blockers have their own colours, and split vertices of theirs stay ou
   CHECK(green > 0);
 }
 
+TEST_CASE("a fit changes the transfer that is written, and the facts tell of it", "[bake_mesh]") {
+  const Mesh mesh =
+      shapes::merged(shapes::grid({}, {1, 0, 0}, {0, 1, 0}, 2, 2), shapes::grid({}, {0, 1, 0}, {0, 0, 1}, 2, 2));
+  const Mesh blocker = shapes::grid({0.6, 0.2, 0.1}, {0.3, 0, 0}, {0, 0, 0.5});
+  BakeMeshOptions o = options(TransferKind::shadowed, 256);
+  const BakedMesh plain = bake(mesh, {blocker}, o);
+  CHECK_FALSE(plain.facts.fit.any());
+  CHECK(plain.fitNote.empty());
+  o.fit.kind = FitKind::surface;
+  const BakedMesh fitted = bake(mesh, {blocker}, o);
+  // Each vertex is a lighting point of its own, but those of the crease are two.
+  CHECK(fitted.facts.fit.fittedPoints == plain.facts.lightingPoints);
+  CHECK(fitted.facts.fit.after < fitted.facts.fit.before);
+  CHECK(fitted.fitNote == "asked for");
+  CHECK(fitted.transfer.error == plain.transfer.error);
+  CHECK(fitted.transfer.visibility == plain.transfer.visibility);
+  CHECK(fitted.transfer.coefficients != plain.transfer.coefficients);
+  o.fit.kind = FitKind::automatic;
+  o.bake.kind = TransferKind::unshadowed;
+  const BakedMesh open = bake(mesh, {blocker}, o);
+  CHECK_FALSE(open.facts.fit.any());
+  CHECK(open.fitNote == "unshadowed transfer has a closed form, which is kept");
+  o.fit.samplesPerPoint = 0;
+  CHECK_THROWS_WITH(bake(mesh, {blocker}, o), Catch::Contains("samples per point 0"));
+}
+
 TEST_CASE("isolated vertices keep their place with zero transfer, and are told", "[bake_mesh]") {
   const Mesh mesh = shapes::isolatedVertices();
   const BakedMesh baked = bake(mesh, {}, options(TransferKind::shadowed));
