@@ -53,7 +53,7 @@ class Refiner {
         parallel_(parallel),
         progress_(progress),
         attributes_(mesh),
-        budget_(mesh.source, options.maxVertices) {}
+        budget_(mesh.source, mesh.positions.size(), options.maxVertices) {}
 
   RefinedMesh run() {
     findPatches();
@@ -121,7 +121,12 @@ std::vector<std::uint32_t> Refiner::longPatches() {
     if (regions_.ofFace[f] == FlatRegions::kNone) return;
     const FaceShape shape(mesh_, f);
     const Vec3d centre = (shape.corners[0] + shape.corners[1] + shape.corners[2]) * (1.0 / 3);
-    budget_.expect(shape.area(), edgeLengthAt(mesh_, length_, f, centre));
+    double border = 0;
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      if (!isPatchBorder(edges_, patches_, attributes_, {3 * f + c})) continue;
+      border += length(shape.corners[(c + 1) % 3] - shape.corners[c]);
+    }
+    budget_.expect(shape.area(), border, edgeLengthAt(mesh_, length_, f, centre));
   });
   budget_.checkExpected();
   std::vector<bool> isLong(patches_.size());

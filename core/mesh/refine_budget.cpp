@@ -27,19 +27,22 @@ std::string roundedUp(double x) {
 
 }  // namespace
 
-RefineBudget::RefineBudget(std::string source, std::size_t most)
-    : source_(std::move(source)), most_(std::min(most, kMostVertices)) {}
+RefineBudget::RefineBudget(std::string source, std::size_t before, std::size_t most)
+    : source_(std::move(source)), before_(before), most_(std::min(most, kMostVertices)) {}
 
 /// Equilateral triangles with sides of h, of which six share a vertex, have an area of sqrt(3)/2 h^2 for each vertex.
-void RefineBudget::expect(double area, double length) {
+/// Vertices on a border have half of the triangles around them; halving may set them sqrt(2) times as densely.
+void RefineBudget::expect(double area, double border, double length) {
   if (!std::isfinite(length)) return;
-  expected_ += area / (std::sqrt(3.0) / 2 * length * length);
+  inside_ += area / (std::sqrt(3.0) / 2 * length * length);
+  onBorders_ += std::sqrt(2.0) / 2 * border / length;
   shortest_ = std::min(shortest_, length);
   longest_ = std::max(longest_, length);
 }
 
 void RefineBudget::checkExpected() const {
-  if (shortest_ == longest_ && expected_ > static_cast<double>(most_)) fail(expected_);
+  // A tenth may be wrong, in favour of trying.
+  if (shortest_ == longest_ && inside_ > 1.1 * static_cast<double>(most_)) fail(inside_);
 }
 
 void RefineBudget::count(std::size_t candidates) {
@@ -48,17 +51,22 @@ void RefineBudget::count(std::size_t candidates) {
 }
 
 void RefineBudget::check(std::size_t vertices) const {
-  if (vertices > most_) fail(static_cast<double>(vertices));
+  if (vertices > most_) fail(static_cast<double>(vertices - std::min(before_, vertices)));
 }
 
-void RefineBudget::fail(double vertices) const {
-  // A tenth more vertices than expected, for borders.
-  const double factor = std::sqrt(std::max(1.1 * std::max(expected_, vertices) / static_cast<double>(most_), 1.21));
+/// `made`: how many new vertices there are, at the least.
+void RefineBudget::fail(double made) const {
+  constexpr double kStep = 1.05;
+  const std::string cause = "refining would make more than the " + std::to_string(most_) + " vertices allowed";
+  const double room = static_cast<double>(most_) - static_cast<double>(before_);
+  if (room < 1) throw Error({.file = source_, .cause = cause, .remedy = "allow more: it has as many already"});
+  // What has been made tells how far off the expectation is.
+  const double excess = std::max(1.0, made / std::max(1.0, expected()));
+  double longer = kStep;
+  while (excess * expected(longer) > room) longer *= kStep;
   const std::string fitting =
-      shortest_ == longest_ ? "a length of " + roundedUp(factor * shortest_) : roundedUp(factor) + " times the lengths";
-  throw Error({.file = source_,
-               .cause = "refining would make more than the " + std::to_string(most_) + " vertices allowed",
-               .remedy = fitting + " would fit, or allow more vertices"});
+      shortest_ == longest_ ? "a length of " + roundedUp(longer * shortest_) : roundedUp(longer) + " times the lengths";
+  throw Error({.file = source_, .cause = cause, .remedy = fitting + " would fit, or allow more vertices"});
 }
 
 }  // namespace shbake

@@ -11,14 +11,15 @@ namespace shbake {
 /// Keeps count while a mesh is refined. count() may be called from any thread.
 class RefineBudget {
  public:
-  /// `source` is the mesh's, for messages; `most` vertices are allowed, at most kMostVertices.
-  RefineBudget(std::string source, std::size_t most);
+  /// `source` is the mesh's, for messages; of `most` vertices, at most kMostVertices, it has `before` already.
+  RefineBudget(std::string source, std::size_t before, std::size_t most);
   static constexpr std::size_t kMostVertices = 700'000'000;  // whose faces' corners 32 bits can number
 
-  /// Expects what a flat part of this area gets for edges of this length.
-  void expect(double area, double length);
-  /// Vertices expected to be new in all.
-  double expected() const { return expected_; }
+  /// Expects what a flat face of this area, with so much of its sides on the border of a patch, gets for edges of this
+  /// length.
+  void expect(double area, double border, double length);
+  /// Vertices expected to be new in all, for lengths `longer` times as long.
+  double expected(double longer = 1) const { return inside_ / (longer * longer) + onBorders_ / longer; }
   /// Throws an Error that says which length would fit when more than allowed are sure to come: where one length is
   /// wanted everywhere, what is expected comes true.
   void checkExpected() const;
@@ -30,12 +31,12 @@ class RefineBudget {
   std::size_t most() const { return most_; }
 
  private:
-  [[noreturn]] void fail(double vertices) const;
+  [[noreturn]] void fail(double made) const;
 
   std::string source_;
-  std::size_t most_;
+  std::size_t before_, most_;
   std::atomic<std::size_t> candidates_{0};
-  double expected_ = 0;
+  double inside_ = 0, onBorders_ = 0;
   double shortest_ = std::numeric_limits<double>::infinity(), longest_ = 0;
 };
 
