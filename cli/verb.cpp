@@ -9,6 +9,7 @@ namespace shbake::cli {
 // One line a verb, in the order of help; verbs/NAME.cpp defines NAMEVerb.
 #define SHBAKE_VERBS(VERB) \
   VERB(bake)               \
+  VERB(refine)             \
   VERB(info)               \
   VERB(compare)            \
   VERB(light)              \
