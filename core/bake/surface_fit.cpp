@@ -29,7 +29,7 @@ constexpr std::size_t kMostJudges = 16384;
 /// above 256 more places tell more than more rays.
 constexpr int kRayShare = 4, kLeastRays = 32, kMostRays = 256;
 /// The ridge times the samples a point: what interpolation cannot represent scatters the residuals even without noise,
-/// and the noise of the rays adds to it relative to the error that is to be removed. Measured: bench_fit --ridge.
+/// and the noise of the rays adds to it relative to the error that is to be removed. Measured on eight meshes.
 constexpr double kRidgeOfScatter = 0.4, kRidgeOfNoise = 2.0 / 3;
 /// The ratio of the noise to the error that the ridge follows: beyond it a fit changes next to nothing.
 constexpr double kMostNoise = 1e4;
