@@ -39,12 +39,9 @@ std::string markdown(const Table& table) {
   return text + "\n";
 }
 
-/// How many times as long as ours a method takes to an error of 1 %; nothing where one of the two does not reach it.
-std::optional<double> timesOurs(const ChartData& data, const char* id) {
-  const MethodCurve *ours = curveOf(data, "shbake"), *other = curveOf(data, id);
-  const auto a = effortFor(ours->points, kTarget), b = effortFor(other->points, kTarget);
-  if (!a || !b) return {};
-  return b->cpu / a->cpu;
+chart::Reach reachOf(const ChartData& data, const char* id) {
+  const MethodCurve* curve = curveOf(data, id);
+  return chart::reachOf(curve->points, curve->systematic, kTarget);
 }
 
 /// The default's excess over the front of some curves.
@@ -62,28 +59,31 @@ std::string judged(const std::string& text, bool holds) {
   return holds ? text : "**" + text + "**";
 }
 
-std::string ratioText(const std::optional<double>& ratio, double least) {
-  return ratio ? judged(chart::significantText(*ratio, 2), *ratio >= least) : "not reached";
+/// How many times as long as ours a method takes to an error of 1 %. A bound that does not decide is marked too.
+std::string ratioText(const ChartData& data, const char* id, double least) {
+  const chart::Reach ours = reachOf(data, "shbake"), other = reachOf(data, id);
+  if (ours.kind != chart::Reach::Kind::reached) return "";
+  const double ratio = other.reading.cpu / ours.reading.cpu;
+  return judged(chart::reachText(other, ratio, 2), ratio >= least || other.kind == chart::Reach::Kind::never);
 }
 
 Table targetsTable(const std::vector<ChartData>& meshes) {
   Table table{"",
               {{"mesh", "points", "default rays", "its error", "its CPU time", "over the front: directions", "all",
-                "slope", "time to 1 %", "Green / ours", "libigl / ours"}}};
+                "slope", "seconds to 1 %", "Green / ours", "libigl / ours"}}};
   using Group = chart::MethodGroup;
   for (const ChartData& d : meshes) {
     const MethodCurve& ours = *curveOf(d, "shbake");
-    const auto effort = effortFor(ours.points, kTarget);
+    const chart::Reach effort = reachOf(d, "shbake");
     const double directions = excess(d, {Group::ours, Group::directions});
     const double all = excess(d, {Group::ours, Group::directions, Group::exclusion, Group::programs});
-    table.rows.push_back({d.mesh, std::to_string(d.points), std::to_string(d.defaults.rays),
-                          chart::percentText(d.defaults.error), chart::secondsText(d.defaults.cpu),
-                          judged(chart::fixedText(directions, 2), directions <= 1),
-                          judged(chart::fixedText(all, 2), all <= 1),
-                          ours.slope ? judged(chart::fixedText(*ours.slope, 2), *ours.slope <= kLeastSlope) : "",
-                          effort ? chart::secondsText(effort->cpu) : "not reached",
-                          ratioText(timesOurs(d, "green"), isScan(d) ? kOverGreenScans : kOverGreen),
-                          ratioText(timesOurs(d, "libigl"), kOverLibigl)});
+    table.rows.push_back(
+        {d.mesh, std::to_string(d.points), std::to_string(d.defaults.rays), chart::percentText(d.defaults.error),
+         chart::secondsText(d.defaults.cpu), judged(chart::fixedText(directions, 2), directions <= 1),
+         judged(chart::fixedText(all, 2), all <= 1),
+         ours.slope ? judged(chart::fixedText(*ours.slope, 2), *ours.slope <= kLeastSlope) : "",
+         chart::reachText(effort, effort.reading.cpu, 3),
+         ratioText(d, "green", isScan(d) ? kOverGreenScans : kOverGreen), ratioText(d, "libigl", kOverLibigl)});
   }
   return table;
 }
@@ -104,26 +104,34 @@ Table byMesh(const std::vector<ChartData>& meshes, const Cell& cell) {
   return table;
 }
 
-/// Geometric means over the meshes of the error at each number of rays, of methods and meshes that have them all.
+const CurvePoint* pointAt(const MethodCurve& curve, int rays) {
+  for (const CurvePoint& p : curve.points) {
+    if (p.rays == rays && p.error > 0) return &p;
+  }
+  return nullptr;
+}
+
+/// Geometric means of the error at each number of rays, over the meshes on which all methods were measured at it.
 Table meanErrors(const std::vector<ChartData>& meshes) {
   Table table{"", {{"method"}}};
-  const std::vector<int> rays{16, 64, 256, 1024, 4096};
-  for (const int n : rays) table.rows[0].push_back(std::to_string(n));
-  for (const chart::Method& m : chart::allMethods()) {
-    std::vector<std::string> row{m.title};
-    for (const int n : rays) {
-      double sum = 0;
-      int count = 0;
-      for (const ChartData& d : meshes) {
-        for (const CurvePoint& p : curveOf(d, m.id)->points) {
-          if (p.rays != n || p.error <= 0) continue;
-          sum += std::log(p.error);
-          ++count;
-        }
+  for (const chart::Method& m : chart::allMethods()) table.rows.push_back({m.title});
+  table.rows.push_back({"meshes"});
+  for (const int rays : {16, 64, 256, 1024, 4096}) {
+    table.rows[0].push_back(std::to_string(rays));
+    std::vector<const ChartData*> whole;
+    for (const ChartData& d : meshes) {
+      if (std::all_of(d.curves.begin(), d.curves.end(), [&](const auto& c) { return pointAt(c, rays) != nullptr; })) {
+        whole.push_back(&d);
       }
-      row.push_back(count == 0 ? "" : chart::percentText(std::exp(sum / count)));
     }
-    table.rows.push_back(row);
+    std::size_t row = 1;
+    for (const chart::Method& m : chart::allMethods()) {
+      double sum = 0;
+      for (const ChartData* d : whole) sum += std::log(pointAt(*curveOf(*d, m.id), rays)->error);
+      table.rows[row++].push_back(
+          whole.empty() ? "" : chart::percentText(std::exp(sum / static_cast<double>(whole.size()))));
+    }
+    table.rows[row].push_back(std::to_string(whole.size()));
   }
   return table;
 }
@@ -133,9 +141,9 @@ std::string rateText(const ChartData& d, const MethodCurve& c) {
   return chart::significantText(p.traced * static_cast<double>(d.points) / p.cpu / 1e6, 3);
 }
 
-std::string timeText(const ChartData&, const MethodCurve& c) {
-  const auto effort = effortFor(c.points, kTarget);
-  return effort ? chart::significantText(effort->cpu, 3) : "–";
+std::string timeText(const ChartData& d, const MethodCurve& c) {
+  const chart::Reach reach = reachOf(d, c.method->id);
+  return chart::reachText(reach, reach.reading.cpu, 3);
 }
 
 std::string systematicText(const ChartData&, const MethodCurve& c) {
@@ -143,34 +151,40 @@ std::string systematicText(const ChartData&, const MethodCurve& c) {
 }
 
 std::string introduction(const AccuracyRun& run) {
-  return "# Speed and accuracy\n\n"
-         "Both count, so they are charted against each other: on every mesh, what each method errs, and the CPU time "
-         "that it\n"
-         "takes for that. `shbake chart MESH -o chart.html` does the same on a mesh of your own.\n\n"
-         "All figures and pictures of this page are made by one command:\n\n```sh\n" +
-         run.command +
-         "\n```\n\n"
-         "## How it is measured\n\n"
-         "- The error of a point is |t − t*| / |t_unshadowed|, with t the shadowed transfer (order 4: 16 coefficients) "
-         "and t* the\n"
-         "  reference; that of a mesh its RMS, weighted by the area that each point stands for.\n"
-         "- The reference is two independent estimates t₁, t₂ by lattices of 32768 and 30720 rays. The mean of\n"
-         "  (t − t₁)·(t − t₂) has the expectation |t − t*|²: the reference's own noise drops out.\n"
-         "- Time is the CPU time of one thread for tracing and summing, for all points of the mesh; meshes with more "
-         "points than\n"
-         "  are measured are sampled in blocks of 16 neighbours, and the time is scaled up. The search for contacts "
-         "counts for\n"
-         "  the methods that need it. The BVH, which all need alike, and tables of directions do not.\n"
-         "- All methods sum the same way (a table of the basis in float, sums in double) and trace with the same "
-         "Embree. Those that\n"
-         "  differ in directions or exclusion alone trace 16 rays at a time; the loops of other programs one by one, "
-         "as they do.\n"
-         "- Each setting runs four times with different seeds, twice above 1024 rays: errors are RMS over the runs, "
-         "times medians.\n"
-         "- \"Not mended by rays\" is what independent runs share: the mean of (t − t₁)·(t′ − t₂) over pairs of runs, "
-         "where it is\n"
-         "  beyond three standard errors (jackknife over the runs).\n\n"
-         "Methods:\n\n";
+  std::string text =
+      R"(# Speed and accuracy
+
+Both count, so they are charted against each other: on every mesh, what each method errs, and the CPU time that it takes
+for that. `shbake chart MESH -o chart.html` does the same on a mesh of your own.
+
+All figures and pictures of this page are made by one command, in some 15 minutes:
+
+```sh
+cmake --preset ci && cmake --build --preset ci --target bench_accuracy && build/ci/bench/bench_accuracy
+```
+
+`bench_accuracy city --print` measures one mesh and prints its part of the page. The meshes `city` and `cavity4` are
+generated; the others are looked for in the folder that the CMake variable `SHBAKE_SHARED_DIR` names.
+
+## How it is measured
+
+- The error of a point is |t − t*| / |t_unshadowed|, with t its shadowed transfer (order 4: 16 coefficients) and t* the
+  reference; that of a mesh is their RMS, weighted by the area that each point stands for.
+- The reference is two independent estimates t₁, t₂ by lattices of 32768 and 30720 rays. The mean of (t − t₁)·(t − t₂)
+  has the expectation |t − t*|²: the reference's own noise drops out.
+- Time is the CPU time of one thread for tracing and summing, for all points of the mesh. Of large meshes a sample of
+  blocks of 16 neighbours is measured, and the time scaled up. The search for contacts counts for the methods that need
+  it. The BVH, which all need alike, and tables of directions do not.
+- All methods sum alike: rows of a table of the basis in float, moved to double in between. Those that differ in
+  directions or exclusion alone trace 16 rays at a time; the loops of other programs one by one, as they do.
+- Each setting runs four times with different seeds, twice above 1024 rays: errors are RMS over the runs, times the
+  least of them: what else a machine does can only add.
+- "Not mended by rays" is what independent runs share: the mean of (t − t₁)·(t′ − t₂) over pairs of runs, where it is
+  beyond three standard errors (jackknife over the runs). For methods that keep part of their directions in all runs,
+  such as the rings of the Gauss product, that includes what these err; more rays do mend it.
+
+)";
+  return text + "Measured on " + run.machine + ".\n\nMethods:\n\n";
 }
 
 std::string methodsList() {
@@ -205,8 +219,11 @@ std::string pictures(const AccuracyRun& run) {
 
 std::string accuracyPage(const AccuracyRun& run) {
   return introduction(run) + methodsList() + targets(run) + pictures(run) +
-         "## Errors\n\nGeometric means over the meshes, by the number of rays that a method is asked for:\n\n" +
-         markdown(meanErrors(run.meshes)) + "## Time to 1 %\n\nCPU seconds; – where 4096 rays do not reach it:\n\n" +
+         "## Errors\n\nGeometric means over the meshes on which all methods were measured, by the number of rays that "
+         "they are asked for:\n\n" +
+         markdown(meanErrors(run.meshes)) +
+         "## Time to 1 %\n\nCPU seconds; > where the most rays that were measured do not reach it, never where what "
+         "rays do not mend is greater:\n\n" +
          markdown(byMesh(run.meshes, timeText)) +
          "## Rates\n\nMillion rays a second on one thread, at the most rays:\n\n" +
          markdown(byMesh(run.meshes, rateText)) +

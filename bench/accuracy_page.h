@@ -14,7 +14,7 @@ struct AccuracyRun {
   std::vector<chart::ChartData> meshes;
   std::vector<std::string> pictures;  ///< file names of the charts of the first meshes, in docs/images
   chart::Table exclusion;             ///< the small scenes with known answers
-  std::string command;                ///< that makes the page
+  std::string machine;                ///< what it ran on
 };
 
 /// The page as Markdown.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 
 #include "accuracy_page.h"
 #include "base/atomic_file.h"
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::vector<std::string> meshes;
-  double budget = 60;
+  double budget = 90;
   std::size_t sample = 1024;
   std::string docs, cache;
   std::size_t pictures = 4;
@@ -49,7 +50,6 @@ chart::Table exclusionTable() {
     truth.push_back(chart::percentText(c.truth));
   }
   table.rows.push_back(truth);
-  std::vector<std::vector<std::string>> rows;
   for (const chart::Method& m : chart::allMethods()) {
     if (m.group == chart::MethodGroup::directions) continue;
     std::vector<std::string> row{m.title};
@@ -70,6 +70,15 @@ std::string stemOf(const std::string& name) {
   return fs::path(labelOf(name)).stem().string();
 }
 
+/// The processor, as the system calls it.
+std::string machineName() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "an unknown processor";
+}
+
 chart::ChartData measure(const std::string& name, const Options& o, const Light& light) {
   const LightingPoints points = namedPoints(name, {0.8f, 0.8f, 0.8f});
   chart::MeasureOptions options;
@@ -86,7 +95,7 @@ chart::ChartData measure(const std::string& name, const Options& o, const Light&
 
 void run(const Options& o) {
   AccuracyRun result;
-  result.command = "build/ci/bench/bench_accuracy";
+  result.machine = machineName();
   result.exclusion = exclusionTable();
   const Light light = discLight(chart::kTruncationOrder, {0, 0.6, 0.8}, 5, {1, 1, 1});
   for (const std::string& name : o.meshes) result.meshes.push_back(measure(name, o, light));

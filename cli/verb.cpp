@@ -12,6 +12,7 @@ namespace shbake::cli {
   VERB(refine)             \
   VERB(info)               \
   VERB(compare)            \
+  VERB(chart)              \
   VERB(light)              \
   VERB(sh)                 \
   VERB(relight)            \

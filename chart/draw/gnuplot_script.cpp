@@ -106,8 +106,8 @@ std::string panelScript(const Panel& panel) {
     data += "EOD\n";
     plots += (plots.empty() ? "" : ", ") + name + " using 1:2 with " + styleOf(s) + " title " + quoted(s.title);
   }
-  return data + "set title " + quoted(panel.title) + "\nset key title " + quoted(panel.legend) + "\n" +
-         axisScript("x", panel.x, x) + axisScript("y", panel.y, y) + "plot " + plots + "\n";
+  return data + "set title " + quoted(panel.title) + "\n" + axisScript("x", panel.x, x) + axisScript("y", panel.y, y) +
+         "plot " + plots + "\n";
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ std::string gnuplotScript(std::span<const Panel> panels, const std::string& titl
   std::string script = "set encoding utf8\nset terminal " + terminal + "\n";
   script +=
       "set grid lc rgb '#dddddd' lt 1 lw 0.8\nset border 3 lc rgb '#444444'\nset tics nomirror\n"
-      "set key below center horizontal Left reverse maxcols 2 samplen 2 spacing 1.15\n"
+      "set key below center horizontal Left reverse maxcols 2 samplen 2 spacing 1.15 title ' '\n"
       "set lmargin 9\nset rmargin 3\n";
   if (count > 1)
     script += "set multiplot layout " + std::to_string(rows) + "," + std::to_string(columns) + " title " +

@@ -34,8 +34,7 @@ struct Axis {
 struct Panel {
   std::string name;  ///< a word for ids and file names
   std::string title;
-  std::string caption;       ///< sentences below it, in pages
-  std::string legend = " ";  ///< a line above the legend
+  std::string caption;  ///< sentences below it, in pages
   Axis x, y;
   std::vector<Series> series;
 };

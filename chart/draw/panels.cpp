@@ -27,7 +27,6 @@ Panel speedPanel(const ChartData& data, std::initializer_list<MethodGroup> group
   Panel panel;
   panel.x = {"CPU time for the whole mesh in seconds", true};
   panel.y = {"error in %", true};
-  panel.legend = "in brackets: slope of the error by rays";
   std::vector<CurvePoint> all{data.defaults};
   int color = 0;
   for (const MethodCurve& curve : data.curves) {
@@ -53,7 +52,7 @@ Panel speedPanel(const ChartData& data, std::initializer_list<MethodGroup> group
 Panel directionsPanel(const ChartData& data) {
   Panel panel = speedPanel(data, {MethodGroup::ours, MethodGroup::directions});
   panel.name = "directions";
-  panel.title = "Directions: error against CPU time";
+  panel.title = "Directions: error against CPU time (in brackets: slope by rays)";
   panel.caption =
       "16 to 4096 rays a point, all with the same exact exclusion, tracing and sums; the error is that of the "
       "shadowed transfer against the reference, RMS over the surface, relative to the unshadowed transfer. "
@@ -64,7 +63,7 @@ Panel directionsPanel(const ChartData& data) {
 Panel programsPanel(const ChartData& data) {
   Panel panel = speedPanel(data, {MethodGroup::ours, MethodGroup::exclusion, MethodGroup::programs});
   panel.name = "programs";
-  panel.title = "Other loops and exclusions: error against CPU time";
+  panel.title = "Other loops and exclusions: error against CPU time (slope by rays)";
   panel.caption =
       "Curves that level off have errors that more rays do not mend: light that leaks through what was left "
       "out, or shadows of the surface on itself.";

@@ -48,19 +48,20 @@ Table byRays(const ChartData& data, const std::string& title, const Cell& cell) 
 }
 
 Table methodsTable(const ChartData& data) {
-  Table table{"Methods",
-              {{"method", "what it is", "million rays/s", "slope", "not mended by rays", "time to 1 %", "over ours"}}};
+  Table table{
+      "Methods",
+      {{"method", "what it is", "million rays/s", "slope", "not mended by rays", "seconds to 1 %", "over ours"}}};
   const MethodCurve* ours = curveOf(data, "shbake");
   const auto own = ours == nullptr ? std::nullopt : effortFor(ours->points, kTarget);
   for (const MethodCurve& c : data.curves) {
     if (c.points.empty()) continue;
     const CurvePoint& last = c.points.back();
     const double rate = last.traced * static_cast<double>(data.points) / last.cpu / 1e6;
-    const auto effort = effortFor(c.points, kTarget);
+    const Reach reach = reachOf(c.points, c.systematic, kTarget);
     table.rows.push_back(
         {c.method->title, c.method->detail, significantText(rate, 3), c.slope ? fixedText(*c.slope, 2) : "",
-         c.systematic ? percentText(*c.systematic) : "none found", effort ? secondsText(effort->cpu) : "not reached",
-         effort && own ? significantText(effort->cpu / own->cpu, 2) : ""});
+         c.systematic ? percentText(*c.systematic) : "none found", reachText(reach, reach.reading.cpu, 3),
+         own ? reachText(reach, reach.reading.cpu / own->cpu, 2) : ""});
   }
   return table;
 }
@@ -119,6 +120,11 @@ std::string percentText(double share) {
 
 std::string secondsText(double seconds) {
   return significantText(seconds, 3) + " s";
+}
+
+std::string reachText(const Reach& reach, double value, int digits) {
+  if (reach.kind == Reach::Kind::never) return "never";
+  return (reach.kind == Reach::Kind::beyond ? "> " : "") + significantText(value, digits);
 }
 
 std::vector<std::string> adviceSentences(const ChartData& data) {

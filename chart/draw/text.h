@@ -16,6 +16,9 @@ std::string percentText(double share);
 /// Seconds in three significant digits: "0.031 s".
 std::string secondsText(double seconds);
 
+/// A time to an error, or a multiple of it, in two or three significant digits: "0.52", "> 3.1", "never".
+std::string reachText(const Reach& reach, double value, int digits);
+
 /// "For 1 % error use --rays 512 --bounces 3: 1.2 s of CPU time without reflections." One for each advice, or why there
 /// is none.
 std::vector<std::string> adviceSentences(const ChartData& data);

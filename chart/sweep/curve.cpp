@@ -49,4 +49,10 @@ std::optional<Reading> effortFor(std::span<const CurvePoint> points, double erro
   return {};
 }
 
+Reach reachOf(std::span<const CurvePoint> points, std::optional<double> systematic, double error) {
+  if (const auto effort = effortFor(points, error)) return {Reach::Kind::reached, *effort};
+  if (points.empty() || (systematic && *systematic >= error)) return {};
+  return {Reach::Kind::beyond, {double(points.back().rays), points.back().cpu}};
+}
+
 }  // namespace shbake::chart

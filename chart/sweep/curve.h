@@ -12,8 +12,8 @@ namespace shbake::chart {
 struct CurvePoint {
   int rays = 0;            ///< the method's own measure of effort
   double traced = 0;       ///< rays traced a point, on average
-  double cpu = 0;          ///< CPU seconds for the whole mesh: median of the runs
-  double cpuSpread = 0;    ///< half the range of the runs, relative to `cpu`
+  double cpu = 0;          ///< CPU seconds for the whole mesh: the least of the runs
+  double cpuSpread = 0;    ///< the range of the runs, relative to `cpu`
   double error = 0;        ///< RMS of the runs; 0 where nothing is left of it beyond the reference's noise
   double errorSpread = 0;  ///< standard error of `error` over the runs, relative to it
   int runs = 0;
@@ -39,5 +39,20 @@ struct Reading {
 /// The least effort that reaches `error`, by power laws between points in the order of their rays; nothing where no
 /// point does. Where the first point does already, that point.
 std::optional<Reading> effortFor(std::span<const CurvePoint> points, double error);
+
+/// What a curve tells of the effort for an error.
+struct Reach {
+  enum class Kind {
+    reached,  ///< at `reading`
+    beyond,   ///< not at `reading`, the last point: more than that
+    never,    ///< the error that rays do not mend is greater
+  };
+  Kind kind = Kind::never;
+  Reading reading;
+};
+
+/// effortFor() that tells why not. `systematic` is the error that rays do not mend, where it is known; a curve without
+/// points reaches nothing.
+Reach reachOf(std::span<const CurvePoint> points, std::optional<double> systematic, double error);
 
 }  // namespace shbake::chart

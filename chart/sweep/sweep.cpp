@@ -7,7 +7,6 @@
 
 #include "bake/bake_options.h"
 #include "bake/pilot.h"
-#include "chart/methods/cpu_clock.h"
 #include "chart/sweep/sample.h"
 #include "chart/sweep/transfer_error.h"
 
@@ -105,9 +104,10 @@ class Sweep {
     for (const double s : squares) variance += (s - mean) * (s - mean) / (point.runs - 1) / point.runs;
     point.error = mean > 0 ? std::sqrt(mean) : 0;
     point.errorSpread = mean > 0 ? std::sqrt(variance) / (2 * mean) : 0;
-    point.cpu = median(times);
+    // What else the machine does can only add to the time.
     const auto [low, high] = std::minmax_element(times.begin(), times.end());
-    point.cpuSpread = (*high - *low) / 2 / point.cpu;
+    point.cpu = *low;
+    point.cpuSpread = (*high - *low) / *low;
     return point;
   }
 

@@ -1,0 +1,146 @@
+// Charts as files: JSON by its keys, pages that need nothing else, names, and nothing half written.
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "chart/draw/chart_file.h"
+#include "chart/draw/chart_json.h"
+#include "chart/draw/page.h"
+#include "chart/draw/panels.h"
+#include "chart/draw/text.h"
+#include "tests/chart/support.h"
+
+using namespace shbake;
+using namespace shbake::chart;
+using namespace shbake::testing;
+
+namespace {
+
+/// Made-up numbers: two methods, orders, reflections.
+ChartData example() {
+  ChartData data;
+  data.mesh = "a <b> & \"c\"";
+  data.points = 1000;
+  data.faces = 2000;
+  data.order = 4;
+  data.measuredPoints = 500;
+  data.referencePoints = 600;
+  data.referenceRays = 32768;
+  data.referenceNoise = 1e-4;
+  for (const char* id : {"shbake", "green"}) {
+    MethodCurve curve;
+    curve.method = &methodNamed(id);
+    for (int rays = 16; rays <= 256; rays *= 4) {
+      CurvePoint p;
+      p.rays = rays;
+      p.traced = rays;
+      p.cpu = rays * (curve.method->group == MethodGroup::ours ? 0.01 : 0.05);
+      p.error = 1.0 / rays;
+      p.runs = 4;
+      curve.points.push_back(p);
+    }
+    data.curves.push_back(curve);
+  }
+  data.curves[1].systematic = 0.014;
+  data.defaults = data.curves[0].points[1];
+  data.defaultTolerance = 0.01;
+  for (int n = 1; n <= 8; ++n) data.orders.push_back({n, 0.5 / n, {}, 0.01, 0.1});
+  data.bounces = {64, {{0, false, 0.1, 1}, {1, false, 0.01, 1.1}, {3, true, 1e-3, 1.2}}};
+  data.advice = {{0.05, true, 32, 0.3, 1}, {0.005, false, 0, 0, {}}};
+  data.notes = {"a note"};
+  return data;
+}
+
+}  // namespace
+
+TEST_CASE("the JSON holds what the chart shows", "[chart_file]") {
+  const auto json = nlohmann::json::parse(chartJson(example()));
+  CHECK(json["shbake_chart"] == 1);
+  CHECK(json["lighting_points"] == 1000);
+  CHECK(json["measured_points"] == 500);
+  CHECK(json["reference"]["rays"] == 32768);
+  CHECK(json["defaults"]["rays"] == 64);
+  CHECK(json["defaults"]["tolerance"] == 0.01);
+  REQUIRE(json["methods"].size() == 2);
+  const auto& green = json["methods"][1];
+  CHECK(green["method"] == "green");
+  CHECK(green["group"] == "programs");
+  CHECK(green["systematic_error"] == 0.014);
+  CHECK(json["methods"][0]["systematic_error"].is_null());
+  for (const auto& m : json["methods"]) {
+    REQUIRE(m["points"].size() == 3);
+    for (const auto& p : m["points"]) {
+      for (const char* key : {"rays", "traced_rays", "cpu", "cpu_spread", "error", "error_spread", "runs"}) {
+        CHECK(p[key].is_number());
+      }
+      CHECK(p["on_front"] == (m["method"] == "shbake"));
+    }
+  }
+  CHECK(json["orders"].size() == 8);
+  CHECK(json["orders"][0]["under_light"].is_null());
+  CHECK(json["reflections"]["points"][2]["auto"] == true);
+  CHECK(json["advice"][0]["bounces"] == 1);
+  CHECK(json["advice"][1]["rays"].is_null());
+  CHECK(json["notes"][0] == "a note");
+  ChartData bare = example();
+  bare.bounces = {};
+  CHECK(nlohmann::json::parse(chartJson(bare))["reflections"].is_null());
+}
+
+TEST_CASE("a page needs nothing else and takes text as text", "[chart_file]") {
+  const std::string drawn = "<?xml version='1.0'?><svg><g id=\"a\"/><use xlink:href='#a'/><p d='url(#a)'/></svg>\n";
+  const std::string page = chartPage(example(), [&](const Panel&) { return drawn; });
+  CHECK(page.find("a &lt;b&gt; &amp; &quot;c&quot;") != std::string::npos);
+  CHECK(page.find("<b>") == std::string::npos);
+  CHECK(page.find("http") == std::string::npos);
+  CHECK(page.find("<?xml") == std::string::npos);
+  CHECK(page.find("<script") == std::string::npos);
+  CHECK(page.find("viewport") != std::string::npos);
+  for (const char* name : {"directions", "programs", "orders", "bounces"}) {
+    CHECK(page.find(std::string("id=\"") + name + "-a\"") != std::string::npos);
+    CHECK(page.find(std::string("'#") + name + "-a'") != std::string::npos);
+    CHECK(page.find(std::string("url(#") + name + "-a)") != std::string::npos);
+  }
+  CHECK(page.find("use --rays 32 --bounces 1") != std::string::npos);
+  CHECK(page.find("For 0.5 % error more rays are needed") != std::string::npos);
+  CHECK(inlineSvg("no picture", "x-").empty());
+}
+
+TEST_CASE("panels without numbers are left out", "[chart_file]") {
+  CHECK(panelsOf(example()).size() == 4);
+  ChartData data = example();
+  data.bounces = {};
+  CHECK(panelsOf(data).size() == 3);
+}
+
+TEST_CASE("numbers are written as people read them", "[chart_file]") {
+  CHECK(percentText(0.05) == "5 %");
+  CHECK(percentText(0.005) == "0.5 %");
+  CHECK(percentText(0.12345) == "12.3 %");
+  CHECK(percentText(12.34) == "1234 %");
+  CHECK(significantText(0.0012345, 3) == "0.00123");
+  CHECK(significantText(12345, 3) == "12345");
+  CHECK(significantText(0, 3) == "0");
+  CHECK(fixedText(-0.7777, 2) == "-0.78");
+}
+
+TEST_CASE("formats go by the name, and what fails leaves the old file", "[chart_file]") {
+  CHECK(chartFormatOf("a.HTML") == ChartFormat::html);
+  CHECK(chartFormatOf("b/c.svg") == ChartFormat::svg);
+  CHECK(chartFormatOf("a.png") == ChartFormat::png);
+  CHECK(chartFormatOf("a.json") == ChartFormat::json);
+  CHECK_THROWS_WITH(chartFormatOf("a.gif"), Catch::Contains(".html, .svg, .png or .json"));
+  Folder folder;
+  const std::string path = folder.file("chart.svg");
+  std::ofstream(path) << "old";
+  Progress stopped([](const ProgressState&) { return false; }, Progress::Duration(0));
+  CHECK_THROWS_AS(writeChart(path, example(), stopped), Error);
+  std::ifstream in(path);
+  CHECK(std::string(std::istreambuf_iterator<char>(in), {}) == "old");
+  CHECK(folder.files() == 1);
+  Progress progress;
+  writeChart(folder.file("chart.json"), example(), progress);
+  CHECK(folder.files() == 2);
+}
