@@ -270,7 +270,7 @@ constexpr Row kRows[] = {
      "a pair of sheets fails when the light from one to the other differs by 2 % from the way back", 0,
      measureReciprocity},
     {"sums", "energy", "sums of 1e5 to 1e6 rays", "more rays, but no less error",
-     "every sample added in single precision", "sums of short blocks", "--rays",
+     "every sample added in single precision", "sums of short blocks, added in double precision", "--rays",
      "a coefficient fails when it is off by 1e-4 of an open point's transfer", 0, measureSums},
 };
 

@@ -79,7 +79,7 @@ std::string markdownTable(const std::vector<RowResult>& results) {
       text += "\n\n| where | what is seen | the naive way | fails | shbake | fails | allowed | a case | option |\n";
       text += "|---|---|---|---|---|---|---|---|---|\n";
     }
-    cell(row.place);
+    cell(std::string(row.place) + " (`" + row.id + "`)");
     cell(row.seen);
     cell(row.naive);
     cell(r.ran ? rateText(r.outcome.naive) : "not run");
