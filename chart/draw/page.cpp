@@ -92,8 +92,10 @@ std::string chartPage(const ChartData& data, const DrawPanel& draw) {
   for (const std::string& sentence : adviceSentences(data)) page += "<li>" + escaped(sentence) + "</li>\n";
   page += "</ul>\n";
   for (const Panel& panel : panelsOf(data)) {
-    page += "<figure id=\"" + escaped(panel.name) + "\">\n" + inlineSvg(draw(panel), panel.name + "-") +
-            "\n<figcaption>" + escaped(panel.caption) + "</figcaption>\n</figure>\n";
+    std::string svg = inlineSvg(draw(panel), panel.name + "-");
+    replaceAll(svg, "<title>Gnuplot</title>", "<title>" + escaped(panel.title) + "</title>");
+    page += "<figure id=\"" + escaped(panel.name) + "\">\n" + svg + "\n<figcaption>" + escaped(panel.caption) +
+            "</figcaption>\n</figure>\n";
   }
   page += "<h2>How it was measured</h2>\n<ul>\n";
   for (const std::string& sentence : measurementSentences(data)) page += "<li>" + escaped(sentence) + "</li>\n";

@@ -90,13 +90,16 @@ TEST_CASE("the JSON holds what the chart shows", "[chart_file]") {
 }
 
 TEST_CASE("a page needs nothing else and takes text as text", "[chart_file]") {
-  const std::string drawn = "<?xml version='1.0'?><svg><g id=\"a\"/><use xlink:href='#a'/><p d='url(#a)'/></svg>\n";
+  const std::string drawn =
+      "<?xml version='1.0'?><svg><title>Gnuplot</title><g id=\"a\"/><use xlink:href='#a'/><p d='url(#a)'/></svg>\n";
   const std::string page = chartPage(example(), [&](const Panel&) { return drawn; });
   CHECK(page.find("a &lt;b&gt; &amp; &quot;c&quot;") != std::string::npos);
   CHECK(page.find("<b>") == std::string::npos);
   CHECK(page.find("http") == std::string::npos);
   CHECK(page.find("<?xml") == std::string::npos);
   CHECK(page.find("<script") == std::string::npos);
+  CHECK(page.find("Gnuplot") == std::string::npos);
+  CHECK(page.find("<title>Error against order</title>") != std::string::npos);
   CHECK(page.find("viewport") != std::string::npos);
   for (const char* name : {"directions", "programs", "orders", "bounces"}) {
     CHECK(page.find(std::string("id=\"") + name + "-a\"") != std::string::npos);
