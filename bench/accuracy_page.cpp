@@ -44,12 +44,17 @@ chart::Reach reachOf(const ChartData& data, const char* id) {
   return chart::reachOf(curve->points, curve->systematic, kTarget);
 }
 
-/// The default's excess over the front of some curves.
+/// The default's excess over the front of some groups' curves. The same setting on our own curve is not held against
+/// it.
 double excess(const ChartData& data, std::initializer_list<chart::MethodGroup> groups) {
   double most = 0;
   for (const MethodCurve& c : data.curves) {
     if (std::find(groups.begin(), groups.end(), c.method->group) == groups.end()) continue;
-    most = std::max(most, excessOverFront(data.defaults, c.points));
+    std::vector<CurvePoint> others = c.points;
+    if (c.method->group == chart::MethodGroup::ours) {
+      std::erase_if(others, [&](const CurvePoint& p) { return p.rays == data.defaults.rays; });
+    }
+    most = std::max(most, excessOverFront(data.defaults, others));
   }
   return most;
 }

@@ -101,7 +101,9 @@ std::string sentenceOf(const Advice& a, const ChartData& data) {
 std::string fixedText(double value, int digits) {
   std::array<char, 64> text;
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, digits).ptr;
-  return {text.data(), end};
+  const std::string result(text.data(), end);
+  const bool isZero = result.find_first_not_of("-0.") == std::string::npos;
+  return isZero && result[0] == '-' ? result.substr(1) : result;
 }
 
 std::string significantText(double value, int digits) {

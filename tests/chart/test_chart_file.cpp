@@ -127,6 +127,7 @@ TEST_CASE("numbers are written as people read them", "[chart_file]") {
   CHECK(significantText(12345, 3) == "12345");
   CHECK(significantText(0, 3) == "0");
   CHECK(fixedText(-0.7777, 2) == "-0.78");
+  CHECK(fixedText(-0.001, 2) == "0.00");
 }
 
 TEST_CASE("formats go by the name, and what fails leaves the old file", "[chart_file]") {
