@@ -19,21 +19,6 @@ constexpr int kMostRays = 1 << 20;
 /// The pilot stops following its own prediction where a round costs more than a bake of ordinary meshes.
 constexpr int kMostPilotRays = 16384;
 
-std::vector<std::uint32_t> pilotPoints(const LightingPoints& points, const std::vector<std::uint8_t>& wanted) {
-  std::vector<std::uint32_t> all;
-  for (std::uint32_t p = 0; p < points.size(); ++p) {
-    if (wanted.empty() || wanted[p] != 0) all.push_back(p);
-  }
-  if (all.size() <= kPilotPoints) return all;
-  // One at random from each of equal stretches of the Morton curve.
-  std::vector<std::uint32_t> chosen;
-  for (std::size_t i = 0; i < kPilotPoints; ++i) {
-    const std::size_t begin = i * all.size() / kPilotPoints, end = (i + 1) * all.size() / kPilotPoints;
-    chosen.push_back(all[begin + hashBits(0, i) % (end - begin)]);
-  }
-  return chosen;
-}
-
 /// The stated RMS error of the chosen points at some number of rays.
 double measure(const LightingPoints& points, const std::vector<std::uint32_t>& chosen, const RayScene& scene,
                const BakeOptions& options, int rays, const Parallel& parallel, Progress& progress) {
@@ -62,6 +47,21 @@ int roundUp(double rays) {
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> pilotPoints(const LightingPoints& points, const std::vector<std::uint8_t>& wanted) {
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t p = 0; p < points.size(); ++p) {
+    if (wanted.empty() || wanted[p] != 0) all.push_back(p);
+  }
+  if (all.size() <= kPilotPoints) return all;
+  // One at random from each of equal stretches of the Morton curve.
+  std::vector<std::uint32_t> chosen;
+  for (std::size_t i = 0; i < kPilotPoints; ++i) {
+    const std::size_t begin = i * all.size() / kPilotPoints, end = (i + 1) * all.size() / kPilotPoints;
+    chosen.push_back(all[begin + hashBits(0, i) % (end - begin)]);
+  }
+  return chosen;
+}
 
 int chooseRays(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, const RayScene& scene,
                const BakeOptions& options, const Parallel& parallel, Progress& progress) {
