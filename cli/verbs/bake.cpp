@@ -9,6 +9,7 @@
 #include "cli/parse.h"
 #include "cli/surface_option.h"
 #include "cli/verb.h"
+#include "cli/view_light.h"
 
 namespace shbake::cli {
 namespace {
@@ -23,22 +24,28 @@ class Bake : public Verb {
  private:
   void declareTransfer(CLI::App& app);
   void declareSurface(CLI::App& app);
+  void declareAutomatic(CLI::App& app);
+  AutoBakeOptions automatic(Session& session);
   void checkPaths() const;
   void warnOfIdleOptions(Session& session) const;
-  void describe(const BakedMesh& baked, const std::vector<std::string>& findings, Session& session) const;
+  void describe(const AutoBake& bake, const std::vector<std::string>& findings, Session& session) const;
 
   std::string mesh_, output_;
   std::vector<std::string> blockers_;
   BakeMeshOptions options_;
+  RefinementOptions refinement_;
+  double surfaceTolerance_ = options_.bake.tolerance;
+  std::string light_;
   BakedPlyOptions ply_;
   bool force_ = false;
   CLI::Option *rays_ = nullptr, *tolerance_ = nullptr, *bounces_ = nullptr, *seed_ = nullptr, *crease_ = nullptr,
-              *fit_ = nullptr;
+              *fit_ = nullptr, *transfer_ = nullptr, *order_ = nullptr, *refine_ = nullptr;
 };
 
 void Bake::declare(CLI::App& app) {
   addFile(app, "MESH", mesh_, "the mesh to bake: PLY, OBJ, OFF or STL");
   addText(app, {"-o,--output", "FILE", "the PLY file to write; required"}, output_);
+  declareAutomatic(app);
   declareTransfer(app);
   declareSurface(app);
   addSurfaceSamples(app, "--surface-error",
@@ -48,26 +55,55 @@ void Bake::declare(CLI::App& app) {
   addSwitch(app, "--force", force_, "let the output replace the mesh that is baked or a blocker");
 }
 
+void Bake::declareAutomatic(CLI::App& app) {
+  tolerance_ = addOption(
+      app,
+      {"--tolerance", "E",
+       "surface error to reach, 0.0001..1: RMS over the surface, relative to the unshadowed "
+       "transfer. Chooses transfer, vertices, rays and fit, as far as no option says otherwise"},
+      "none: an error of 1 % at the vertices",
+      [this](const std::string& name, const std::string& text) { surfaceTolerance_ = parseReal(name, text, 1e-4, 1); });
+  addOption(
+      app,
+      {"--light", "LIGHT",
+       "bake no more bands than pictures under this light need: a sky (overcast, clear or partly-cloudy), white, a "
+       ".shlight file, or an image of an environment map"},
+      "none: --order says how many", [this](const std::string&, const std::string& text) { light_ = text; });
+  refine_ = addOption(app,
+                      {"--refine", "LENGTH",
+                       "divide flat parts into edges of this length first, in the file's units; auto: where the light "
+                       "on them changes; no: nowhere"},
+                      "no, or auto with --tolerance", [this](const std::string& name, const std::string& text) {
+                        using Kind = RefinementOptions::Kind;
+                        refinement_.kind = text == "no" ? Kind::none : text == "auto" ? Kind::automatic : Kind::length;
+                        if (refinement_.kind != Kind::length) return;
+                        refinement_.length = parseReal(name, text, std::numeric_limits<double>::min(), 1e300);
+                      });
+  addReal(app, {"--flat", "DEG", "what --refine takes for flat: faces within this angle of a plane, 0..45 degrees"},
+          refinement_.flatDegrees, 0, 45);
+  addWhole(app, {"--max-vertices", "N", "vertices that --refine may make, 1..700000000"}, refinement_.maxVertices, 1,
+           700'000'000);
+}
+
 void Bake::declareTransfer(CLI::App& app) {
   BakeOptions& bake = options_.bake;
-  addChoice<TransferKind>(app, {"--transfer", "KIND", "unshadowed (closed form), shadowed, or interreflected"},
-                          bake.kind,
-                          {{"unshadowed", TransferKind::unshadowed},
-                           {"shadowed", TransferKind::shadowed},
-                           {"interreflected", TransferKind::interreflected}});
-  addWhole(app, {"--order", "N", "bands of spherical harmonics, 1..8: N x N coefficients a channel"}, bake.order, 1, 8);
+  transfer_ = addChoice<TransferKind>(
+      app, {"--transfer", "KIND", "unshadowed (closed form), shadowed, or interreflected"}, bake.kind,
+      {{"unshadowed", TransferKind::unshadowed},
+       {"shadowed", TransferKind::shadowed},
+       {"interreflected", TransferKind::interreflected}});
+  order_ = addWhole(app, {"--order", "N", "bands of spherical harmonics, 1..8: N x N coefficients a channel"},
+                    bake.order, 1, 8);
   rays_ = addOption(app, {"--rays", "N", "rays a point, 1..1048576, rounded up to a multiple of 16"},
-                    "as many as --tolerance needs", [&bake](const std::string& name, const std::string& text) {
+                    "as many as the tolerance needs, or an error of 1 % at the vertices",
+                    [&bake](const std::string& name, const std::string& text) {
                       bake.rays = static_cast<int>(parseWhole(name, text, 1, 1 << 20));
                     });
-  tolerance_ = addReal(
-      app, {"--tolerance", "E", "error to reach, 0.0001..1: RMS over the mesh, relative to the unshadowed transfer"},
-      bake.tolerance, 1e-4, 1);
-  bounces_ = addOption(app, {"--bounces", "N", "reflections to sum, 0..10000, or auto: until --tolerance is reached"},
-                       "auto", [&bake](const std::string& name, const std::string& text) {
-                         bake.bounces = text == "auto" ? BakeOptions::kBouncesAuto
-                                                       : static_cast<int>(parseWhole(name, text, 0, 10000));
-                       });
+  bounces_ = addOption(
+      app, {"--bounces", "N", "reflections to sum, 0..10000, or auto: until what is left is lost in the error"}, "auto",
+      [&bake](const std::string& name, const std::string& text) {
+        bake.bounces = text == "auto" ? BakeOptions::kBouncesAuto : static_cast<int>(parseWhole(name, text, 0, 10000));
+      });
   addOption(app, {"--max-distance", "D", "faces farther away than this, in the file's units, are not seen"}, "no limit",
             [&bake](const std::string& name, const std::string& text) {
               bake.maxDistance = parseReal(name, text, std::numeric_limits<double>::min(), 1e300);
@@ -152,7 +188,6 @@ void Bake::warnOfIdleOptions(Session& session) const {
   if (kind == TransferKind::unshadowed) {
     if (fit_->count() > 0) session.warn("--fit" + with);
     if (rays_->count() > 0) session.warn("--rays" + with);
-    if (tolerance_->count() > 0) session.warn("--tolerance" + with);
     if (seed_->count() > 0) session.warn("--seed" + with);
     if (!blockers_.empty()) session.warn("--blockers" + with);
   }
@@ -162,6 +197,34 @@ void Bake::warnOfIdleOptions(Session& session) const {
   }
 }
 
+/// What is left for the bake to choose.
+AutoBakeOptions Bake::automatic(Session& session) {
+  AutoBakeOptions choose;
+  choose.refinement = refinement_;
+  if (tolerance_->count() > 0) {
+    choose.tolerance = surfaceTolerance_;
+    choose.transfer = transfer_->count() == 0;
+    if (refine_->count() == 0) choose.refinement.kind = RefinementOptions::Kind::automatic;
+    if (fit_->count() == 0) options_.fit.kind = FitKind::automatic;
+  }
+  if (light_.empty()) return choose;
+  if (order_->count() > 0) {
+    session.warn("--light has no effect with --order");
+    return choose;
+  }
+  ViewLightOptions light;
+  light.name = light_;
+  const ViewLight view = light.make(LightOrder::kMost, false, session);
+  if (view.rig) {
+    throw Error({.kind = ErrorKind::usage,
+                 .file = light_,
+                 .cause = "a rig of local lights has no order of its own",
+                 .remedy = "name one of its lights, or say --order"});
+  }
+  choose.light = view.light;
+  return choose;
+}
+
 void Bake::run(Session& session) {
   checkPaths();
   warnOfIdleOptions(session);
@@ -169,20 +232,32 @@ void Bake::run(Session& session) {
   const std::vector<std::string> findings = describeFindings(checkMesh(mesh, session.progress));
   std::vector<Mesh> blockers;
   for (const std::string& path : blockers_) blockers.push_back(readMesh(path, session.progress));
-  const BakedMesh baked = bakeMesh(std::move(mesh), blockers, options_, session.parallel, session.progress);
+  const AutoBakeOptions choose = automatic(session);
+  const AutoBake bake = autoBake(std::move(mesh), blockers, options_, choose, session.parallel, session.progress);
+  const BakedMesh& baked = bake.baked;
   writeBakedPly(output_, baked.mesh, baked.transfer, baked.facts, baked.sourceVertex, ply_, session.progress);
   session.display.finish();
   for (const std::string& sentence : baked.warnings) session.warn(sentence);
-  describe(baked, findings, session);
+  describe(bake, findings, session);
 }
 
-/// The times of the stages as one line, longest first, those below a hundredth of a second left out.
-std::string describeStages(std::vector<ProgressDisplay::Stage> stages) {
-  std::stable_sort(stages.begin(), stages.end(), [](const auto& a, const auto& b) { return a.seconds > b.seconds; });
-  std::string text;
+/// The times of the stages as one line, longest first, those below a hundredth of a second left out. Stages that came
+/// more than once are added up.
+std::string describeStages(const std::vector<ProgressDisplay::Stage>& stages) {
+  std::vector<std::pair<std::string, double>> times;
   for (const auto& stage : stages) {
-    if (stage.seconds < 0.01) break;
-    text += (text.empty() ? "" : ", ") + stage.name + " " + formatDuration(stage.seconds);
+    const auto same = std::find_if(times.begin(), times.end(), [&](const auto& t) { return t.first == stage.name; });
+    if (same == times.end()) {
+      times.emplace_back(stage.name, stage.seconds);
+    } else {
+      same->second += stage.seconds;
+    }
+  }
+  std::stable_sort(times.begin(), times.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text;
+  for (const auto& [name, seconds] : times) {
+    if (seconds < 0.01) break;
+    text += (text.empty() ? "" : ", ") + name + " " + formatDuration(seconds);
   }
   return text;
 }
@@ -209,7 +284,19 @@ void describeTime(Session& session) {
   }
 }
 
-void Bake::describe(const BakedMesh& baked, const std::vector<std::string>& findings, Session& session) const {
+/// Adds one line for each choice that the bake made.
+void describeChoices(const AutoBake& bake, Report& report) {
+  bool first = true;
+  for (const Choice& choice : bake.choices) {
+    report.data("choices." + choice.what + ".value", choice.value);
+    report.data("choices." + choice.what + ".reason", choice.reason);
+    report.line(first ? "chosen" : "", choice.what + " " + choice.value + ": " + choice.reason);
+    first = false;
+  }
+}
+
+void Bake::describe(const AutoBake& bake, const std::vector<std::string>& findings, Session& session) const {
+  const BakedMesh& baked = bake.baked;
   const TransferFacts& facts = baked.facts;
   Report& report = session.report;
   const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
@@ -222,9 +309,9 @@ void Bake::describe(const BakedMesh& baked, const std::vector<std::string>& find
   report.data("input.findings", findings);
   for (std::size_t i = 0; i < findings.size(); ++i) report.line(i == 0 ? "check" : "", findings[i]);
   report.fact("albedo", baked.albedoNote, "albedo", baked.albedoNote);
+  describeChoices(bake, report);
   describeTransfer(baked.transfer, &facts, report);
   if (!baked.fitNote.empty()) report.data("fit.reason", baked.fitNote);
-  if (!baked.fitNote.empty() && !facts.fit.any()) report.line("fit", "none: " + baked.fitNote);
   describeTime(session);
   report.data("output.file", output_);
   report.data("output.vertices", whole(baked.transfer.size()));

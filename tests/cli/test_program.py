@@ -143,7 +143,7 @@ class Usage(ProgramTest):
         self.assertIn("bake", verbs)
         # What these name or add is absent unless they are given.
         without_default = {"--help", "--output", "--json", "--blockers", "--disc", "--parallel", "--constant",
-                           "--gradient", "--sample", "--turn", "--shadow", "--multiply", "--at"}
+                           "--gradient", "--sample", "--turn", "--shadow", "--multiply", "--at", "--length", "--family"}
         for verb in verbs:
             with self.subTest(verb):
                 result = self.run_program(verb, "--help")
