@@ -1,0 +1,267 @@
+#include "pipeline/auto_bake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <utility>
+
+#include "base/error.h"
+#include "mesh/convexity.h"
+#include "pipeline/auto_refine.h"
+#include "pipeline/light_order.h"
+#include "pipeline/scene_points.h"
+
+namespace shbake {
+namespace {
+
+/// The part of the tolerance that is aimed at: what is left covers the scatter of the estimates.
+constexpr double kAim = 0.94;
+/// The part of the aim that interpolation may take where vertices can be added; the noise of the vertices takes the
+/// rest. Fewer vertices with more rays each cost about the same between 0.7 and 0.9.
+constexpr double kInterpolationShare = 0.8;
+/// The variance that noise of the vertices leaves in what is interpolated between three of them, by area.
+constexpr double kInterpolatedNoise = 0.5;
+/// Errors that the vertices may have, in tolerances, whatever interpolation leaves to them.
+constexpr double kLeastNoise = 0.3, kMostNoise = 1.2;
+/// Places that find an error of 1 on a share tolerance^2 of the surface this often.
+constexpr double kFinds = 4;
+constexpr double kLeastSamples = 2048, kMostSamples = 16384;
+/// Bakes until the tolerance is met, each aiming lower than the last by what that missed.
+constexpr int kMostBakes = 3;
+
+std::string percent(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f %%", value < 0.01 ? 2 : 1, 100 * value);
+  return text;
+}
+
+std::string count(std::size_t n) {
+  return std::to_string(n);
+}
+
+class AutoBaker {
+ public:
+  AutoBaker(const Mesh& mesh, const std::vector<Mesh>& blockers, const BakeMeshOptions& options,
+            const AutoBakeOptions& choose, const Parallel& parallel, Progress& progress)
+      : mesh_(mesh),
+        blockers_(blockers),
+        options_(options),
+        choose_(choose),
+        parallel_(parallel),
+        progress_(progress),
+        openRays_(options.bake.rays == 0) {}
+
+  AutoBake run() {
+    chooseForScene();
+    if (!choose_.tolerance) {
+      bakeOnce(kAim * tolerance());
+    } else {
+      bakeToTolerance();
+    }
+    if (refined_) nameNewVertices();
+    tellAll();
+    return std::move(result_);
+  }
+
+ private:
+  void tell(std::string what, std::string value, std::string reason) {
+    result_.choices.push_back({std::move(what), std::move(value), std::move(reason)});
+  }
+
+  /// What the scene as a whole decides: the kind of transfer, and the order under the light that was named.
+  void chooseForScene() {
+    if (!choose_.transfer && !choose_.light) return;
+    const ScenePoints scene = makeScenePoints(mesh_, blockers_, options_.points, options_.albedo, progress_);
+    if (choose_.transfer) chooseTransfer(scene.points);
+    if (choose_.light) chooseBands(scene.points);
+  }
+
+  void chooseTransfer(const LightingPoints& points) {
+    BakeOptions& bake = options_.bake;
+    if (bake.kind == TransferKind::unshadowed) return;
+    if (blockers_.empty() && isConvexSolid(points, progress_)) {
+      bake.kind = TransferKind::unshadowed;
+      return tell("transfer", "unshadowed", "the mesh is closed and convex, so nothing hides the sky: no rays");
+    }
+    if (bake.kind != TransferKind::interreflected) return;
+    const bool black =
+        std::all_of(points.pointAlbedo.begin(), points.pointAlbedo.end(), [](const Rgb& a) { return a == Rgb(); });
+    if (black) {
+      bake.kind = TransferKind::shadowed;
+      return tell("transfer", "shadowed", "the albedo is 0, so nothing is reflected: no hits are stored");
+    }
+    tell("transfer", "interreflected", "the mesh is not convex and reflects");
+  }
+
+  void chooseBands(const LightingPoints& points) {
+    const LightOrder chosen = chooseOrder(points, {}, options_.bake, *choose_.light, tolerance(), parallel_, progress_);
+    options_.bake.order = chosen.order;
+    const auto left = [&](int order) { return percent(chosen.left[static_cast<std::size_t>(order - 1)]); };
+    std::string reason = "the bands above change pictures under this light by " + left(chosen.order);
+    if (chosen.order > 1) reason += ", with one band less by " + left(chosen.order - 1);
+    reason += "; " + count(static_cast<std::size_t>(chosen.order * chosen.order)) + " coefficients a channel";
+    tell("order", std::to_string(chosen.order), reason);
+  }
+
+  double tolerance() const { return choose_.tolerance.value_or(AutoBakeOptions::kDefaultTolerance); }
+
+  void bakeToTolerance() {
+    if (options_.surfaceSamples == 0) {
+      const double finds = kFinds / (tolerance() * tolerance());
+      options_.surfaceSamples = static_cast<std::size_t>(std::clamp(finds, kLeastSamples, kMostSamples));
+    }
+    double aim = kAim * tolerance();
+    for (int bake = 1;; ++bake) {
+      bakeOnce(aim);
+      result_.baked.facts.tolerance = tolerance();
+      const SurfaceError& surface = result_.baked.facts.surface;
+      result_.met = surface.samples == 0 || surface.rms <= tolerance();
+      if (result_.met || bake == kMostBakes || !canDoBetter()) break;
+      aim *= kAim * tolerance() / surface.rms;
+    }
+  }
+
+  /// Another bake could meet what this one missed: with more vertices, or with more rays where they are what lacks.
+  bool canDoBetter() const {
+    if (!openRays_) return false;
+    if (refined_ && refined_->end == RefineEnd::met && refined_->rounds > 0) return true;
+    const TransferFacts& facts = result_.baked.facts;
+    return kInterpolatedNoise * facts.rmsError * facts.rmsError > facts.surface.rms * facts.surface.rms / 2;
+  }
+
+  void bakeOnce(double aim) {
+    refine(aim);
+    if (choose_.tolerance) chooseNoise(aim);
+    result_.baked = bakeMesh(refined_ ? refined_->refined.mesh : mesh_, blockers_, options_, parallel_, progress_);
+  }
+
+  void refine(double aim) {
+    const RefinementOptions& refinement = choose_.refinement;
+    if (refinement.kind == RefinementOptions::Kind::length) {
+      const RefineOptions refine{refinement.flatDegrees, options_.points.creaseDegrees, refinement.maxVertices};
+      const auto length = [&](std::uint32_t, const Vec3d&) { return refinement.length; };
+      if (!refined_) refined_.emplace().refined = refineFlatRegions(mesh_, refine, length, parallel_, progress_);
+    }
+    if (refinement.kind != RefinementOptions::Kind::automatic) return;
+    if (options_.bake.kind == TransferKind::unshadowed) return;
+    AutoRefineOptions refine;
+    refine.target = std::max(kInterpolationShare * aim, 1e-4);
+    refine.flatDegrees = refinement.flatDegrees;
+    refine.maxVertices = refinement.maxVertices;
+    refined_ = refineWhereLightChanges(mesh_, blockers_, options_.points, options_.albedo, options_.bake, refine,
+                                       parallel_, progress_);
+  }
+
+  /// The error that vertices may have, beside what interpolation is known to miss.
+  void chooseNoise(double aim) {
+    if (!openRays_) return;
+    const bool judged = refined_ && refined_->rounds > 0;
+    const double missed = judged ? refined_->after : kInterpolationShare * aim;
+    const double noise = std::sqrt(std::max(0.0, aim * aim - missed * missed) / kInterpolatedNoise);
+    options_.bake.tolerance = std::clamp(noise, kLeastNoise * aim, std::min(1.0, kMostNoise * aim));
+  }
+
+  void nameNewVertices() {
+    std::vector<std::uint32_t>& source = result_.baked.sourceVertex;
+    if (source.empty() && result_.baked.transfer.size() > mesh_.positions.size()) {
+      source.resize(result_.baked.transfer.size());
+      std::iota(source.begin(), source.end(), 0u);
+    }
+    for (std::uint32_t& v : source) {
+      if (v >= mesh_.positions.size()) v = kNewVertex;
+    }
+    result_.baked.facts.sourceVertices = mesh_.positions.size();
+  }
+
+  void tellAll() {
+    const BakedMesh& baked = result_.baked;
+    const TransferFacts& facts = baked.facts;
+    if (refined_) tellRefinement();
+    if (choose_.tolerance) {
+      tellChannels();
+      if (facts.rays > 0 && openRays_) {
+        tell("rays", count(static_cast<std::size_t>(facts.rays)),
+             "the points err by " + percent(facts.rmsError) + ", which leaves " +
+                 percent(std::sqrt(kInterpolatedNoise) * facts.rmsError) + " between them");
+      }
+      if (facts.kind == TransferKind::interreflected && facts.bouncesConverged) {
+        tell("bounces", "all", "in " + std::to_string(facts.bounces) + " steps, to a tenth of the error of the points");
+      }
+    }
+    if (!baked.fitNote.empty()) tell("fit", facts.fit.any() ? "surface" : "vertex", baked.fitNote);
+    if (!result_.met) result_.baked.warnings.push_back(whyNot());
+  }
+
+  void tellChannels() {
+    if (result_.baked.transfer.channels == 3) return tell("channels", "3", "the albedo has colour");
+    tell("channels", "1", "the albedo is grey: a third of the storage and of the reflections' work");
+  }
+
+  void tellRefinement() {
+    const RefineReport& report = refined_->refined.report;
+    const std::string vertices =
+        count(mesh_.positions.size()) + " -> " + count(refined_->refined.mesh.positions.size()) + " vertices";
+    if (refined_->rounds == 0 && refined_->end == RefineEnd::met) {
+      return tell("refine", vertices, count(report.refined) + " of " + count(report.regions) + " flat regions");
+    }
+    const std::string missed = percent(refined_->after);
+    if (refined_->end == RefineEnd::noFlat) return tell("refine", "no", "no part of the mesh is flat");
+    if (refined_->rounds == 1) return tell("refine", "no", "interpolation misses " + missed + " as it is");
+    std::string reason = "interpolation missed " + percent(refined_->before) + " and now " + missed;
+    const double even = report.flatArea / (std::sqrt(3.0) / 2 * refined_->shortest * refined_->shortest);
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g", even);
+    reason += std::string("; even edges as short as the shortest would take ") + text + " vertices";
+    tell("refine",
+         count(mesh_.positions.size()) + " -> " + count(refined_->refined.mesh.positions.size()) + " vertices", reason);
+  }
+
+  /// Why the tolerance was not met, as a warning.
+  std::string whyNot() const {
+    const SurfaceError& surface = result_.baked.facts.surface;
+    std::string text =
+        "the surface error is " + percent(surface.rms) + ", above the tolerance of " + percent(tolerance()) + ": ";
+    if (!refined_) return text + "the mesh was to stay as it is; allow it to be refined";
+    switch (refined_->end) {
+      case RefineEnd::noFlat:
+        return text + "it lies between the vertices of curved parts, which are not divided; subdivide them";
+      case RefineEnd::flatDone:
+        return text + percent(refined_->curved) +
+               " lie between the vertices of curved parts, which are not divided; subdivide them";
+      case RefineEnd::budget:
+        return text + "no more than " + count(choose_.refinement.maxVertices) + " vertices were allowed";
+      case RefineEnd::noProgress:
+        return text + "more vertices no longer lower it";
+      case RefineEnd::met:
+        break;
+    }
+    return text + "samples of the surface judged it better than it is; ask for less";
+  }
+
+  const Mesh& mesh_;
+  const std::vector<Mesh>& blockers_;
+  BakeMeshOptions options_;
+  const AutoBakeOptions& choose_;
+  const Parallel& parallel_;
+  Progress& progress_;
+  bool openRays_;
+  std::optional<AutoRefinement> refined_;
+  AutoBake result_;
+};
+
+}  // namespace
+
+AutoBake autoBake(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshOptions& options,
+                  const AutoBakeOptions& choose, const Parallel& parallel, Progress& progress) {
+  if (choose.tolerance && !(*choose.tolerance >= 1e-4 && *choose.tolerance <= 1)) {
+    throw usageError("the surface error to reach, " + std::to_string(*choose.tolerance) + ", is out of range",
+                     "use 0.0001 to 1");
+  }
+  if (mesh.triangles.empty()) {
+    throw Error({.file = mesh.source, .cause = "the mesh has no faces", .remedy = "light is baked for surfaces only"});
+  }
+  return AutoBaker(mesh, blockers, options, choose, parallel, progress).run();
+}
+
+}  // namespace shbake
