@@ -15,7 +15,7 @@
 namespace {
 
 using namespace shbake;
-using namespace shbake::bench;
+using namespace shbake::chart;
 
 /// A map of noise whose rows repeat after `kPeriod`, so that making them costs next to nothing beside their projection.
 MapRows noiseRows(int width, int height) {

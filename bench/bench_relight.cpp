@@ -13,7 +13,7 @@
 namespace {
 
 using namespace shbake;
-using namespace shbake::bench;
+using namespace shbake::chart;
 
 constexpr int kRuns = 9;
 
