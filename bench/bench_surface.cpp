@@ -1,0 +1,323 @@
+// bench_surface: whether refinement, fit and `--tolerance` hold what they promise, as places between the vertices judge
+// that no bake has seen. One table has the errors of the methods beside those of point sampling in the same CPU time;
+// the other has what bakes to a tolerance reached, what they took, and what settings found by a sweep would have taken.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "bake/surface_error.h"
+#include "chart/methods/cpu_clock.h"
+#include "pipeline/auto_bake.h"
+#include "pipeline/baked_surface_error.h"
+#include "scenes.h"
+#include "support/shapes.h"
+
+namespace shbake::bench {
+namespace {
+
+struct Options {
+  std::vector<std::string> meshes;
+  std::vector<double> tolerances{0.1, 0.05, 0.02};
+  std::vector<std::string> transfers{"shadowed", "interreflected"};
+  std::vector<std::string> tables{"methods", "tolerances"};
+  double methodTolerance = 0.05;  // of the methods that have one
+  int methodRays = 256;           // of the fit, which has none
+  int order = 4;
+  std::size_t samples = 16384, sweepSamples = 4096;
+  int truthRays = 256;  // each of the two sets of a sample has four times as many
+  bool sweep = false;
+  double reach = 2;  // how far beyond the cost of the bake to a tolerance settings are tried
+  int threads = 0;
+};
+
+/// The seed of what judges; no bake here has it.
+constexpr std::uint64_t kJudge = 0x5EED;
+constexpr int kLeastRays = 16, kMostRays = 4096;
+/// Twice the rays that lower the error by less than this share: what is left lies between the vertices.
+constexpr double kFlatOut = 0.03;
+
+/// A bake, what it took, and how far it is from the truth.
+struct Trial {
+  AutoBake bake;
+  double seconds = 0;  // CPU time
+  double rays = 0;     // traced in all
+  SurfaceError error;
+
+  double cost() const {
+    return static_cast<double>(bake.baked.transfer.size()) * static_cast<double>(bake.baked.facts.rays);
+  }
+};
+
+/// A setting made by hand: edges of one length, rays and fit.
+struct Setting {
+  double length = 0;
+  int rays = 0;
+  FitKind fit = FitKind::vertex;
+  double cost = std::numeric_limits<double>::infinity(), seconds = cost;
+  double error = 0;
+};
+
+/// The least cost and the least CPU time at which a setting meets a tolerance.
+struct Best {
+  Setting byCost, bySeconds;
+};
+
+Mesh meshOf(const std::string& name) {
+  return name == "corner" ? shapes::corner() : namedMesh(name);
+}
+
+double extentOf(const Mesh& mesh) {
+  Vec3d low = mesh.positions.at(0), high = low;
+  for (const Vec3d& p : mesh.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+}
+
+class SurfaceBench {
+ public:
+  SurfaceBench(const std::string& name, TransferKind kind, const Options& options)
+      : options_(options), label_(labelOf(name)), mesh_(meshOf(name)), kind_(kind), parallel_(options.threads) {}
+
+  void methodsRow() {
+    measurePointTime();
+    const Trial fit = bakeByHand(0, options_.methodRays, FitKind::automatic);
+    const Trial refined = bakeTo(options_.methodTolerance, FitKind::vertex);
+    const Trial chosen = bakeTo(options_.methodTolerance, FitKind::automatic);
+    std::printf("%-24s %-14s %8zu |", label_.c_str(), transferName(kind_), mesh_.positions.size());
+    for (const Trial* method : {&fit, &refined, &chosen}) {
+      const Trial points = pointsIn(method->seconds);
+      std::printf(" %7.3f %7.3f %7.2fs %5.2f |", 100 * points.error.rms, 100 * method->error.rms, method->seconds,
+                  method->error.rms / points.error.rms);
+    }
+    std::printf("\n");
+    std::fflush(stdout);
+  }
+
+  void toleranceRow(double tolerance) {
+    const Trial t = bakeTo(tolerance, FitKind::automatic);
+    const TransferFacts& facts = t.bake.baked.facts;
+    std::printf("%-24s %-14s %5.1f | %6.2f %5.2f %-3s | %8zu %5d %8.2fM %7.2fs |", label_.c_str(), transferName(kind_),
+                100 * tolerance, 100 * t.error.rms, t.error.rms / tolerance, t.bake.met ? "yes" : "no",
+                t.bake.baked.transfer.size(), facts.rays, t.rays / 1e6, t.seconds);
+    if (options_.sweep && t.bake.met) printBest(sweep(tolerance, t), t);
+    if (!t.bake.met && !t.bake.baked.warnings.empty()) std::printf(" %s", t.bake.baked.warnings.back().c_str());
+    std::printf("\n");
+    std::fflush(stdout);
+  }
+
+ private:
+  BakeMeshOptions bakeOptions(int rays, FitKind fit) const {
+    BakeMeshOptions options;
+    options.bake.kind = kind_;
+    options.bake.order = options_.order;
+    options.bake.rays = rays;
+    options.fit.kind = fit;
+    return options;
+  }
+
+  /// Bakes and takes the time, then judges.
+  Trial timed(const std::function<AutoBake(Progress&)>& bake, std::size_t samples) {
+    Trial trial;
+    bool counted = false;  // the rays of this stage, whose end may be told twice
+    Progress progress([&](const ProgressState& state) {
+      if (state.done < state.total) counted = false;
+      if (counted || state.unit != "rays" || state.done < state.total) return true;
+      trial.rays += state.total;
+      return counted = true;
+    });
+    const double start = chart::cpuSeconds();
+    trial.bake = bake(progress);
+    trial.seconds = chart::cpuSeconds() - start;
+    trial.error = judge(trial.bake.baked, samples);
+    return trial;
+  }
+
+  SurfaceError judge(const BakedMesh& baked, std::size_t samples) {
+    BakedPly held{baked.mesh, baked.transfer, baked.facts, true, {}, {}};
+    held.facts.seed = kJudge;
+    if (held.facts.rays > 0) held.facts.rays = options_.truthRays;
+    Progress progress;
+    return measureSurfaceError(held, samples, parallel_, progress);
+  }
+
+  Trial bakeTo(double tolerance, FitKind fit) {
+    AutoBakeOptions choose;
+    choose.tolerance = tolerance;
+    choose.refinement.kind = RefinementOptions::Kind::automatic;
+    return timed(
+        [&](Progress& progress) { return autoBake(mesh_, {}, bakeOptions(0, fit), choose, parallel_, progress); },
+        options_.samples);
+  }
+
+  /// Edges of `length`, or the mesh as it is where that is 0.
+  Trial bakeByHand(double length, int rays, FitKind fit, std::size_t samples = 0) {
+    AutoBakeOptions choose;
+    if (length > 0) {
+      choose.refinement.kind = RefinementOptions::Kind::length;
+      choose.refinement.length = length;
+    }
+    return timed(
+        [&](Progress& progress) { return autoBake(mesh_, {}, bakeOptions(rays, fit), choose, parallel_, progress); },
+        samples == 0 ? options_.samples : samples);
+  }
+
+  /// The time of point sampling is that of its rays and a rest.
+  void measurePointTime() {
+    const auto seconds = [&](int rays) {
+      return bakeByHand(0, rays, FitKind::vertex, SurfaceErrorOptions::kLeastSamples).seconds;
+    };
+    const double few = seconds(options_.methodRays), many = seconds(3 * options_.methodRays);
+    secondsPerRay_ = std::max(1e-9, (many - few) / (2 * options_.methodRays));
+    rest_ = std::max(0.0, few - options_.methodRays * secondsPerRay_);
+  }
+
+  /// Point sampling with as many rays as take that time.
+  Trial pointsIn(double seconds) {
+    const double rays = std::clamp((seconds - rest_) / secondsPerRay_, double(kLeastRays), double(1 << 20));
+    return bakeByHand(0, static_cast<int>(rays), FitKind::vertex);
+  }
+
+  /// Tries edges from none on down, rays from few on up, with and without a fit, as far as the cost stays within reach
+  /// of what `t` cost.
+  Best sweep(double tolerance, const Trial& t) {
+    Best best;
+    const double most = options_.reach * t.cost();
+    std::size_t last = 0;
+    for (int level = 0;; ++level) {
+      const std::size_t vertices = settingAt(level, kLeastRays, FitKind::vertex).second;
+      if (static_cast<double>(vertices) * kLeastRays > most || vertices == last) return best;
+      last = vertices;
+      for (const FitKind fit : {FitKind::vertex, FitKind::surface}) {
+        double before = std::numeric_limits<double>::infinity();
+        for (int rays = kLeastRays; rays <= kMostRays && static_cast<double>(vertices) * rays <= most; rays *= 2) {
+          const Setting& s = settingAt(level, rays, fit).first;
+          if (s.error <= tolerance) {
+            if (s.cost < best.byCost.cost) best.byCost = s;
+            if (s.seconds < best.bySeconds.seconds) best.bySeconds = s;
+            break;
+          }
+          if (s.error > (1 - kFlatOut) * before) break;
+          before = s.error;
+        }
+      }
+    }
+  }
+
+  /// A setting of the sweep and the vertices that it has; each is baked once.
+  const std::pair<Setting, std::size_t>& settingAt(int level, int rays, FitKind fit) {
+    const auto key = std::make_tuple(level, rays, fit);
+    const auto known = settings_.find(key);
+    if (known != settings_.end()) return known->second;
+    Setting s;
+    s.length = level == 0 ? 0 : extentOf(mesh_) / (2 * std::pow(2, 0.5 * level));
+    s.rays = rays;
+    s.fit = fit;
+    const Trial t = bakeByHand(s.length, rays, fit, options_.sweepSamples);
+    s.cost = t.cost();
+    s.seconds = t.seconds;
+    s.error = t.error.rms;
+    return settings_.emplace(key, std::make_pair(s, t.bake.baked.transfer.size())).first->second;
+  }
+
+  void printBest(const Best& best, const Trial& t) const {
+    if (best.byCost.rays == 0) {
+      std::printf(" none within %g times the cost", options_.reach);
+      return;
+    }
+    std::printf(" %8.4g %4d %-7s %5.2f | %5.2f %6.2f", best.byCost.length, best.byCost.rays,
+                best.byCost.fit == FitKind::vertex ? "vertex" : "surface", 100 * best.byCost.error,
+                t.cost() / best.byCost.cost, t.seconds / best.bySeconds.seconds);
+  }
+
+  const Options& options_;
+  std::string label_;
+  Mesh mesh_;
+  TransferKind kind_;
+  Parallel parallel_;
+  double secondsPerRay_ = 0, rest_ = 0;  // of point sampling
+  std::map<std::tuple<int, int, FitKind>, std::pair<Setting, std::size_t>> settings_;
+};
+
+/// The project's own scenes, a corner of three squares, and scans and models where the folder has them.
+std::vector<std::string> allMeshes() {
+  std::vector<std::string> names{"corner"};
+  for (const char* file : {"city.obj", "room.obj", "columns.obj", "bowl.ply"}) {
+    names.push_back(SHBAKE_SCENES_DIR "/" + std::string(file));
+  }
+  for (const std::string& name : defaultMeshes(SHBAKE_SHARED_DIR "/meshes")) {
+    if (name.find('/') != std::string::npos) names.push_back(name);
+  }
+  return names;
+}
+
+void run(const Options& o) {
+  const auto has = [&](const char* table) {
+    return std::find(o.tables.begin(), o.tables.end(), table) != o.tables.end();
+  };
+  const auto each = [&](const auto& visit) {
+    for (const std::string& transfer : o.transfers) {
+      for (const std::string& mesh : o.meshes) {
+        SurfaceBench bench(mesh, transferKindOf(transfer).value(), o);
+        visit(bench);
+      }
+    }
+  };
+  if (has("methods")) {
+    std::printf(
+        "order %d; error in %% between the vertices of point sampling and of the method in the same CPU time, "
+        "that time, and their ratio\nfit: auto at %d rays; refined, auto: to %g %%\n",
+        o.order, o.methodRays, 100 * o.methodTolerance);
+    std::printf("%-24s %-14s %8s | %-30s | %-30s | %-30s |\n", "mesh", "transfer", "vertices", "fit", "refined",
+                "auto");
+    each([](SurfaceBench& bench) { bench.methodsRow(); });
+  }
+  if (has("tolerances")) {
+    std::printf(
+        "order %d; tolerance, error and its share of the tolerance, whether met; vertices, rays a vertex, all "
+        "rays and CPU time%s\n",
+        o.order, o.sweep ? "; the best setting by hand and the ratios of cost and time to the best" : "");
+    each([&](SurfaceBench& bench) {
+      for (const double tolerance : o.tolerances) bench.toleranceRow(tolerance);
+    });
+  }
+}
+
+}  // namespace
+}  // namespace shbake::bench
+
+int main(int argc, char** argv) {
+  using namespace shbake::bench;
+  CLI::App app{"Compares refinement, fit and bakes to a tolerance with point sampling and settings by hand"};
+  Options o;
+  const auto list = [](CLI::Option* option) { option->delimiter(',')->allow_extra_args(false); };
+  app.add_option("meshes", o.meshes, "files or generated meshes; default: all");
+  list(app.add_option("--tables", o.tables, "methods, tolerances")->check(CLI::IsMember({"methods", "tolerances"})));
+  list(app.add_option("--transfers", o.transfers, "shadowed, interreflected")
+           ->check(CLI::IsMember({"shadowed", "interreflected"})));
+  list(app.add_option("--tolerances", o.tolerances, "surface errors to reach"));
+  app.add_option("--method-tolerance", o.methodTolerance, "surface error of the methods that are told one");
+  app.add_option("--method-rays", o.methodRays, "rays a vertex of the fit");
+  app.add_option("--order", o.order, "SH bands");
+  app.add_option("--samples", o.samples, "places where errors are measured, an even number");
+  app.add_option("--sweep-samples", o.sweepSamples, "places where errors of settings by hand are measured");
+  app.add_option("--truth", o.truthRays, "a quarter of the rays of each of the two sets that measure there");
+  app.add_flag("--sweep", o.sweep, "look for the best setting by hand: edge length, rays and fit");
+  app.add_option("--reach", o.reach, "try settings up to this many times the cost");
+  app.add_option("--threads", o.threads, "threads; 0: all");
+  CLI11_PARSE(app, argc, argv);
+  if (o.meshes.empty()) o.meshes = allMeshes();
+  try {
+    run(o);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "bench_surface: %s\n", e.what());
+    return 1;
+  }
+  return 0;
+}
