@@ -141,7 +141,7 @@ Mesh mendedFloor(int n, int turn) {
     mesh.triangles.insert(mesh.triangles.end(), {{a, b, m}, {m, b, c}, {a, m, c}, floor.triangles[f + 1]});
   }
   mesh = shapes::rotated(std::move(mesh), turned(turn).rotation);
-  for (Vec3d& p : mesh.positions) p = Vec3d(Vec3f(p));
+  for (Vec3d& p : mesh.positions) p = roundedToFloat(p);
   return mesh;
 }
 

@@ -58,6 +58,10 @@ bool isFinite(Vec3<T> a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
+/// Each component rounded to the nearest float. Vec3d(Vec3f(v)) does not do: where GCC 12 makes vectors of neighbouring
+/// values (-O2 and -O3), it drops the way to float and back.
+Vec3d roundedToFloat(const Vec3d& v);
+
 /// The angle between two vectors of any length in radians, accurate near 0 and pi (Kahan, "How Futile are Mindless
 /// Assessments of Roundoff in Floating-Point Computation?", 2006, section 12).
 template <class T>

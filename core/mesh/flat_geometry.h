@@ -30,10 +30,7 @@ inline double magnitudeOf(const Vec3d& p) {
 
 /// `p` as the mesh's file can hold it.
 inline Vec3d storedPosition(const Mesh& mesh, const Vec3d& p) {
-  if (mesh.doublePositions) return p;
-  // GCC 12 drops the way to float and back of two neighbouring values where it makes vectors of them (-O2 and -O3).
-  const volatile float x = static_cast<float>(p.x), y = static_cast<float>(p.y), z = static_cast<float>(p.z);
-  return {x, y, z};
+  return mesh.doublePositions ? p : roundedToFloat(p);
 }
 
 /// An order of positions that does not depend on their numbers.

@@ -13,7 +13,7 @@ bool positionsNeedDouble(std::span<const Vec3d> positions) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     if (!isFinite(Vec3f(p))) return true;  // beyond the range of float
-    moved = std::max(moved, length(p - Vec3d(Vec3f(p))));
+    moved = std::max(moved, length(p - roundedToFloat(p)));
   }
   return moved > kLoss * length(high - low);
 }

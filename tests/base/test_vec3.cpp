@@ -34,6 +34,15 @@ TEST_CASE("normalized vectors have length 1, and zero stays zero") {
   CHECK(normalized(Vec3f()) == Vec3f());
 }
 
+TEST_CASE("components are rounded to float, each of them") {
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const Vec3d v = randomVector(i) * 1000, rounded = roundedToFloat(v);
+    const volatile float x = static_cast<float>(v.x), y = static_cast<float>(v.y), z = static_cast<float>(v.z);
+    REQUIRE(rounded == Vec3d(x, y, z));
+    REQUIRE(rounded != v);
+  }
+}
+
 TEST_CASE("isFinite refuses every bad component") {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   CHECK(isFinite(Vec3f(1, 2, 3)));
