@@ -23,7 +23,7 @@ class Launcher(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="shbake-launcher-"))
         self.addCleanup(shutil.rmtree, self.folder)
         self.project = self.folder / "my project"  # a blank in the path must not matter
-        for name in ("core", "cli", "cmake", "scripts"):
+        for name in ("core", "stability", "chart", "cli", "tests/support", "cmake", "scripts"):
             (self.project / name).mkdir(parents=True)
         for name in ("shbake", "scripts/setup.sh", "CMakeLists.txt", "CMakePresets.json"):
             shutil.copy(ROOT / name, self.project / name)
@@ -108,6 +108,8 @@ class Launcher(unittest.TestCase):
             os.utime(self.project / "core/a.cpp")
 
         changes = {"edited": touch, "added": lambda: (self.project / "cli/b.cpp").write_text(""),
+                   "selftest": lambda: (self.project / "stability/c.cpp").write_text(""),
+                   "chart": lambda: (self.project / "chart/d.cpp").write_text(""),
                    "removed": lambda: (self.project / "core/a.cpp").unlink(),
                    "packages": lambda: os.utime(self.project / "packages.txt"),
                    "program": lambda: (self.project / "build/release/cli/shbake").unlink()}
