@@ -177,8 +177,8 @@ std::optional<std::vector<Triangle>> triangulatePatch(std::span<const Point2> po
   if (!all.insert(points)) return std::nullopt;
   std::vector<std::array<std::uint32_t, 2>> pieces(border.begin(), border.end());
   const auto lesserFirst = [&](const std::array<std::uint32_t, 2>& piece) {
-    const Kernel::Point_2 a = all.vertices[piece[0]]->point(), b = all.vertices[piece[1]]->point();
-    return std::minmax(a, b);
+    const Kernel::Point_2 &a = all.vertices[piece[0]]->point(), &b = all.vertices[piece[1]]->point();
+    return a < b ? std::pair(a, b) : std::pair(b, a);
   };
   std::sort(pieces.begin(), pieces.end(),
             [&](const auto& s, const auto& t) { return lesserFirst(s) < lesserFirst(t); });
