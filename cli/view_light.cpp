@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "cli/format.h"
@@ -15,8 +14,6 @@
 namespace shbake::cli {
 namespace {
 
-/// Half the angle under which the sun is seen from the earth, in degrees.
-constexpr double kSunHalfAngle = 0.2665;
 constexpr double kRadians = std::numbers::pi / 180;
 
 RadianceFunction radianceOf(const Light& light) {
@@ -92,25 +89,11 @@ ViewLight ViewLightOptions::makeSky(int order) const {
     view.description = "white light from everywhere";
     return view;
   }
-  SkyOptions sky = sky_;
-  sky.model = *skyNamed(name);
-  const Vec3d sun = sunDirection(sky);
-  view.light = skyLight(order, sky);
-  addLight(view.light, discLightOfIrradiance(order, sun, kSunHalfAngle, sunIrradiance_));
-  const double sine = std::sin(kSunHalfAngle * kRadians), cosine = std::cos(kSunHalfAngle * kRadians);
-  const Vec3d disc = sunIrradiance_ * (1 / (std::numbers::pi * sine * sine));
-  const Vec3d fromGround = skyIrradiance(sky) * std::numbers::inv_pi;
-  const Vec3d ground{sky.groundAlbedo.x * fromGround.x, sky.groundAlbedo.y * fromGround.y,
-                     sky.groundAlbedo.z * fromGround.z};
-  view.source = [=](const Vec3d& d) {
-    if (d.z < 0) return ground;
-    return dot(d, sun) >= cosine ? skyRadiance(sky, d) + disc : skyRadiance(sky, d);
-  };
-  view.description = name + " sky";
-  const bool sunCounts = sky.model != SkyModel::overcast || sunIrradiance_ != Vec3d{};
-  if (sunCounts) {
-    view.description += ", sun at " + formatNumber(sky.sunAltitude) + "," + formatNumber(sky.sunAzimuth) + " degrees";
-  }
+  SkyWithSun choice{sky_, sunIrradiance_};
+  choice.sky.model = *skyNamed(name);
+  view.light = skyWithSunLight(order, choice);
+  view.source = skyWithSunRadiance(choice);
+  view.description = describeSkyWithSun(choice);
   return view;
 }
 

@@ -16,6 +16,7 @@
 #include "light/proxy_shadow.h"
 #include "light/rig.h"
 #include "light/sky.h"
+#include "light/sky_with_sun.h"
 #include "light/synthetic.h"
 #include "mesh/lighting_points.h"
 #include "mesh/mesh.h"

@@ -2,7 +2,6 @@
 #include "meshlab_plugin/light_choice.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <numbers>
 
@@ -11,8 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Half the angle under which the sun is seen from the earth, in degrees.
-constexpr double kSunHalfAngle = 0.2665;
 constexpr double kRadians = std::numbers::pi / 180;
 
 void requireRange(const char* name, double value, double least, double most) {
@@ -33,14 +30,6 @@ SkyOptions skyOf(const LightChoice& choice) {
   sky.sunAzimuth = choice.sunAzimuth;
   sky.groundAlbedo = Vec3d{1, 1, 1} * choice.ground;
   return sky;
-}
-
-Light skyWithSun(int order, const LightChoice& choice) {
-  const SkyOptions sky = skyOf(choice);
-  Light light = skyLight(order, sky);
-  addLight(light,
-           discLightOfIrradiance(order, sunDirection(sky), kSunHalfAngle, Vec3d{1, 1, 1} * choice.sunIrradiance));
-  return light;
 }
 
 }  // namespace
@@ -99,7 +88,7 @@ Light LightMaker::make(const LightChoice& choice, int order, const Parallel& par
     case LightKind::overcast:
     case LightKind::clear:
     case LightKind::partlyCloudy:
-      light = skyWithSun(order, choice);
+      light = skyWithSunLight(order, {skyOf(choice), Vec3d{1, 1, 1} * choice.sunIrradiance});
       break;
     case LightKind::white:
       light = constantLight(order, {1, 1, 1});
