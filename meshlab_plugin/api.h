@@ -19,9 +19,11 @@
 namespace shbake::meshlab {
 
 #if SHBAKE_MESHLAB_API >= 202312
+using LengthParameter = RichPercentage;
 using OpenFileParameter = RichFileOpen;
 using SaveFileParameter = RichFileSave;
 #else
+using LengthParameter = RichAbsPerc;
 using OpenFileParameter = RichOpenFile;
 using SaveFileParameter = RichSaveFile;
 #endif

@@ -23,14 +23,30 @@ struct LayerMesh {
   bool mirrored = false;                    ///< the transform mirrors: corners 1 and 2 of each triangle are exchanged
 };
 
+/// The axes in which a layer is read.
+enum class Axes {
+  world,  ///< with the layer's transform
+  own,    ///< without it
+};
+
 /// Reads a layer. Its colours are the ones it had before shbake showed it baked or relit, unless it was painted since.
 /// Throws an Error naming the layer when it has no vertices, a coordinate that is not finite or a transform that cannot
 /// be inverted.
-LayerMesh readLayer(MeshModel& layer);
+LayerMesh readLayer(MeshModel& layer, Axes axes = Axes::world);
+
+/// Adds what a refinement has to carry on to new vertices and faces to readLayer()'s `read`, in the columns that files
+/// of the layer would have: colours as bytes, texture coordinates, and a quality that is not the visible sky of a bake.
+void carryAttributes(MeshModel& layer, LayerMesh& read);
+
+/// Makes a layer what refining `read` gave, with readLayer() in the layer's own axes and carryAttributes(). Vertices
+/// keep their order and their place, new ones come behind. Normals of new vertices are those of `refined`; where it has
+/// none, all are made anew. A bake that the layer holds is dropped: nothing is known of the light at new vertices.
+void storeRefined(MeshModel& layer, const LayerMesh& read, const Mesh& refined);
 
 /// Keeps what was baked from readLayer()'s `read` with the layer, in custom vertex attributes named like the columns of
 /// a baked file: it gets the vertices that were split off, the normals of the lighting points, and the visible share of
-/// the sky as quality. With `preview` its vertex colours become that share as grey; its own are kept beside them.
+/// the sky as quality. With `preview` its vertex colours become that share as grey; its own are kept beside them. Where
+/// the bake refined the mesh, for which `read` needs carryAttributes(), the layer gets its vertices and faces as well.
 void storeBake(MeshModel& layer, const LayerMesh& read, const BakedMesh& baked, bool preview);
 
 /// What storeBake() kept, for the vertices that the layer has now.

@@ -2,7 +2,9 @@
 // follow their vertices when MeshLab deletes, reorders or compacts these.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string_view>
+#include <utility>
 
 #include "meshlab_plugin/bridge.h"
 #include "meshlab_plugin/layer_geometry.h"
@@ -238,9 +240,16 @@ std::vector<Rgb> ownColors(MeshModel& layer, const std::vector<std::uint32_t>& p
 }
 
 void storeBake(MeshModel& layer, const LayerMesh& read, const BakedMesh& baked, bool preview) {
-  std::vector<std::uint32_t> places = read.vertexPlaces;
-  splitLayer(layer, read, baked, places);
   const Placement placement = placementOf(layer);
+  std::vector<std::uint32_t> places = read.vertexPlaces;
+  // Refinement adds faces wherever it does anything; splits add none.
+  if (baked.mesh.triangles.size() > read.mesh.triangles.size()) {
+    growLayer(layer, read, baked.mesh, baked.sourceVertex, placement);
+    places.resize(baked.mesh.positions.size());
+    std::iota(places.begin(), places.end(), 0u);
+  } else {
+    splitLayer(layer, read, baked, places);
+  }
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Vec3f n = placement.normalBack(baked.mesh.vertexNormals[i]);
     layer.cm.vert[places[i]].N() = Point3m(n.x, n.y, n.z);
@@ -263,6 +272,16 @@ void keepBaked(MeshModel& layer, const BakedPly& baked) {
   if (baked.mesh.vertexColors.empty() && !baked.transfer.visibility.empty()) {
     showColors(layer, places, greyOf(baked.transfer));
   }
+}
+
+void dropBake(MeshModel& layer) {
+  BakeRecord* const record = findRecord(layer);
+  if (record == nullptr) return;
+  removeTransfer(layer.cm);
+  removeAttribute(layer.cm, kOwnColor);
+  BakeRecord empty;
+  empty.comments = std::move(record->comments);
+  *record = std::move(empty);
 }
 
 bool holdsTransfer(MeshModel& layer) {

@@ -92,8 +92,8 @@ LayerMesh readPlaced(MeshModel& layer, const Placement& placement) {
   return out;
 }
 
-LayerMesh readLayer(MeshModel& layer) {
-  LayerMesh read = readPlaced(layer, placementOf(layer));
+LayerMesh readLayer(MeshModel& layer, Axes axes) {
+  LayerMesh read = readPlaced(layer, axes == Axes::world ? placementOf(layer) : Placement());
   read.mesh.vertexColors = ownColors(layer, read.vertexPlaces);
   return read;
 }

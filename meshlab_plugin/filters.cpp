@@ -1,6 +1,7 @@
-// Bake, relight, save and load, as MeshLab calls them.
+// Bake, refine, relight, save and load, as MeshLab calls them.
 #include "meshlab_plugin/filters.h"
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 
@@ -46,21 +47,46 @@ std::string percentText(double share) {
   return text;
 }
 
-std::vector<std::string> describe(const BakedMesh& baked) {
+std::vector<std::string> describe(const AutoBake& bake) {
+  const BakedMesh& baked = bake.baked;
   const TransferFacts& facts = baked.facts;
   std::vector<std::string> lines;
   lines.push_back("baked " + std::to_string(facts.lightingPoints) + " lighting points from " +
                   std::to_string(facts.sourceVertices) + " vertices, " + transferName(facts.kind) + ", order " +
                   std::to_string(baked.transfer.order) + ", " + std::to_string(facts.rays) + " rays each");
   lines.push_back("albedo: " + baked.albedoNote);
+  for (const Choice& choice : bake.choices) {
+    lines.push_back("chosen: " + choice.what + " " + choice.value + ": " + choice.reason);
+  }
   if (facts.rays > 0) {
     lines.push_back("error: " + percentText(facts.rmsError) + " RMS, " + percentText(facts.maxError) + " at worst");
   }
-  if (baked.mesh.positions.size() > facts.sourceVertices) {
-    lines.push_back(std::to_string(baked.mesh.positions.size() - facts.sourceVertices) +
-                    " vertices were split off across creases");
+  if (facts.surface.samples > 0) {
+    lines.push_back("surface error: " + percentText(facts.surface.rms) + " RMS, between the vertices too");
   }
+  const auto added = std::ranges::count(baked.sourceVertex, kNewVertex);
+  if (added > 0) lines.push_back(std::to_string(added) + " vertices were added by refinement");
+  const std::size_t split = baked.mesh.positions.size() - facts.sourceVertices - static_cast<std::size_t>(added);
+  if (split > 0) lines.push_back(std::to_string(split) + " vertices were split off across creases");
   for (const std::string& warning : baked.warnings) lines.push_back("warning: " + warning);
+  return lines;
+}
+
+std::vector<std::string> describe(const RefineReport& report) {
+  const auto change = [](const std::array<std::size_t, 2>& counts) {
+    return std::to_string(counts[1]) + ", from " + std::to_string(counts[0]);
+  };
+  const double share = report.area[0] > 0 ? report.flatArea / report.area[0] : 0;
+  std::vector<std::string> lines;
+  lines.push_back("flat: " + std::to_string(report.regions) + (report.regions == 1 ? " region, " : " regions, ") +
+                  percentText(share) + " of the surface; " + std::to_string(report.refined) + " refined");
+  for (const UnrefinedRegion& region : report.left) {
+    lines.push_back("warning: flat region around face " + std::to_string(region.firstFace) + ": " +
+                    std::to_string(region.faces) + (region.faces == 1 ? " face was" : " faces were") +
+                    " left as before: " + region.reason);
+  }
+  lines.push_back("vertices: " + change(report.vertices));
+  lines.push_back("faces: " + change(report.faces));
   return lines;
 }
 
@@ -82,11 +108,18 @@ const std::vector<FilterText>& filterTexts() {
        "spherical harmonics: precomputed radiance transfer. <b>SH Relight</b> then lights it with any distant "
        "light.<br>"
        "The transfer is kept with the layer; the vertex quality becomes the share of the sky that each vertex sees. "
-       "Vertices on creases are split. Save the result with <b>SH Save Baked PLY</b>, or export it as .shply to open "
+       "Vertices on creases are split, and flat regions get more of them where that is asked for. Save the result with "
+       "<b>SH Save Baked PLY</b>, or export it as .shply to open "
        "it "
        "here again.<br>See:<br><i>Peter-Pike Sloan, Jan Kautz, John Snyder</i><br><b>\"Precomputed Radiance Transfer "
        "for "
        "Real-Time Rendering in Dynamic, Low-Frequency Lighting Environments\"</b><br>SIGGRAPH 2002"},
+      {Filter::refine, "SH Refine Flat Regions", "meshing_sh_refine_flat_regions",
+       "Divides the flat regions of the layer into triangles with edges of about the length given, for light to be "
+       "baked into their vertices: a wall of two triangles keeps no shadow on its middle. Curved parts, sharp edges, "
+       "borders, colours, texture coordinates and all vertices stay as they are; new vertices come behind them.<br>"
+       "A bake that the layer holds is dropped. <b>SH Bake Light Transfer</b> can also refine by itself, where the "
+       "light changes."},
       {Filter::relight, "SH Relight", "apply_sh_light_per_vertex",
        "Colours the vertices of a baked layer with the light that they send out under a sky, a disc, an environment "
        "map "
@@ -101,10 +134,12 @@ const std::vector<FilterText>& filterTexts() {
   return texts;
 }
 
-void declareParameters(Filter filter, RichParameterList& parameters) {
+void declareParameters(Filter filter, const MeshModel* layer, RichParameterList& parameters) {
   switch (filter) {
     case Filter::bake:
-      return declareBake(parameters);
+      return declareBake(layer, parameters);
+    case Filter::refine:
+      return declareRefine(layer, parameters);
     case Filter::relight:
       return declareRelight(parameters);
     case Filter::save:
@@ -115,8 +150,9 @@ void declareParameters(Filter filter, RichParameterList& parameters) {
 int changesOf(Filter filter) {
   switch (filter) {
     case Filter::bake:
+    case Filter::refine:
       return MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTNORMAL | MeshModel::MM_VERTNUMBER |
-             MeshModel::MM_FACEVERT;
+             MeshModel::MM_FACEVERT | MeshModel::MM_FACENORMAL | MeshModel::MM_FACENUMBER;
     case Filter::relight:
       return MeshModel::MM_VERTCOLOR;
     case Filter::save:
@@ -130,6 +166,7 @@ std::vector<std::string> Filters::apply(Filter filter, MeshDocument& document, c
   const RunGuard guard(running_);
   if (filter == Filter::bake) return bake(document, parameters, watch);
   MeshModel& layer = currentLayer(document);
+  if (filter == Filter::refine) return refineLayer(layer, parameters, watch);
   if (filter == Filter::relight) return relightLayer(layer, parameters, watch);
   const SaveChoice choice = saveChoice(parameters);
   write(choice.path, layer, choice.colors, choice.ascii, watch);
@@ -140,22 +177,49 @@ std::vector<std::string> Filters::bake(MeshDocument& document, const RichParamet
                                        const Watch& watch) {
   const BakeChoice choice = bakeChoice(parameters);
   MeshModel& layer = currentLayer(document);
-  const LayerMesh read = readLayer(layer);
+  LayerMesh read = readLayer(layer);
+  carryAttributes(layer, read);
+  // Normals that are to be made anew must not keep flat regions apart.
+  if (choice.options.points.normals != NormalSource::automatic) read.mesh.vertexNormals.clear();
   std::vector<Mesh> blockers;
   if (choice.otherLayers) {
     for (MeshModel* other : layersOf(document)) {
       if (other != &layer && other->isVisible() && other->cm.fn > 0) blockers.push_back(readLayer(*other).mesh);
     }
   }
-  BakedMesh baked;
+  AutoBake bake;
   runInBackground(
       [&](Progress& progress) {
         const Parallel parallel(choice.threads);
-        baked = bakeMesh(read.mesh, blockers, choice.options, parallel, progress);
+        bake = autoBake(read.mesh, blockers, choice.options, choice.automatic, parallel, progress);
       },
       pollWith(watch));
-  storeBake(layer, read, baked, choice.preview);
-  return describe(baked);
+  storeBake(layer, read, bake.baked, choice.preview);
+  return describe(bake);
+}
+
+std::vector<std::string> Filters::refineLayer(MeshModel& layer, const RichParameterList& parameters,
+                                              const Watch& watch) {
+  const RefineChoice choice = refineChoice(parameters);
+  LayerMesh read = readLayer(layer, Axes::own);
+  carryAttributes(layer, read);
+  if (!choice.keepNormals) read.mesh.vertexNormals.clear();
+  RefinedMesh refined;
+  runInBackground(
+      [&](Progress& progress) {
+        const Parallel parallel(choice.threads);
+        const auto length = [&](std::uint32_t, const Vec3d&) { return choice.length; };
+        refined = refineFlatRegions(read.mesh, choice.options, length, parallel, progress);
+      },
+      pollWith(watch));
+  std::vector<std::string> lines = describe(refined.report);
+  if (refined.report.refined == 0) {
+    lines.emplace_back("the layer is as it was");
+    return lines;
+  }
+  if (holdsTransfer(layer)) lines.emplace_back("the light that was baked has been dropped: bake the layer again");
+  storeRefined(layer, read, refined.mesh);
+  return lines;
 }
 
 std::vector<std::string> Filters::relightLayer(MeshModel& layer, const RichParameterList& parameters,

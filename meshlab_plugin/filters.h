@@ -15,7 +15,7 @@ class RichParameterList;
 
 namespace shbake::meshlab {
 
-enum class Filter { bake, relight, save };
+enum class Filter { bake, refine, relight, save };
 
 /// What menus, help and scripts show of a filter.
 struct FilterText {
@@ -27,7 +27,8 @@ struct FilterText {
 /// All filters, in the order of the menu.
 const std::vector<FilterText>& filterTexts();
 
-void declareParameters(Filter filter, RichParameterList& parameters);
+/// Declares the parameters of a filter for a layer, which may be null.
+void declareParameters(Filter filter, const MeshModel* layer, RichParameterList& parameters);
 
 /// What MeshLab must know has changed: bits of MeshModel::MeshElement. Relighting changes nothing but colours, which is
 /// what lets MeshLab offer its preview.
@@ -51,6 +52,7 @@ class Filters {
 
  private:
   std::vector<std::string> bake(MeshDocument& document, const RichParameterList& parameters, const Watch& watch);
+  std::vector<std::string> refineLayer(MeshModel& layer, const RichParameterList& parameters, const Watch& watch);
   std::vector<std::string> relightLayer(MeshModel& layer, const RichParameterList& parameters, const Watch& watch);
   void write(const std::string& path, MeshModel& layer, SavedColors colors, bool ascii, const Watch& watch);
 

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "meshlab_plugin/api.h"
 
@@ -11,6 +12,8 @@ namespace shbake::meshlab {
 namespace {
 
 constexpr int kMostMegabytes = 1 << 20;
+/// The default length of edges, in diagonals of the layer's box: a square wall gets about 1500 vertices.
+constexpr float kUsualLength = 0.02f;
 
 QStringList listOf(const std::vector<std::string>& names) {
   QStringList list;
@@ -62,16 +65,72 @@ void declareRays(RichParameterList& p) {
               "enough for soft light; 5 and more keep the edges of shadows."));
   p.addParam(
       RichInt("rays", 0, "Rays",
-              "Rays a vertex, up to 1048576, rounded up to a multiple of 16. 0: as many as the tolerance needs."));
-  p.addParam(
-      RichFloat("tolerance", 0.01f, "Tolerance",
-                "The error to reach where no number of rays is given, 0.0001 to 1: RMS over the mesh, relative to "
-                "the unshadowed transfer. 0.01 is one per cent."));
+              "Rays a vertex, up to 1048576, rounded up to a multiple of 16. 0: as many as the tolerance needs, or an "
+              "error of 1 % at the vertices."));
   p.addParam(RichInt("bounces", -1, "Reflections",
-                     "How many reflections to sum, 0 to 10000. -1: until the tolerance is reached."));
+                     "How many reflections to sum, 0 to 10000. -1: until what is left is lost in the error."));
   p.addParam(RichFloat("max_distance", 0.0f, "Maximum distance",
                        "Faces farther away than this are not seen, in the units of the mesh. 0: no limit."));
   p.addParam(RichInt("seed", 1, "Seed", "Another number of 0 or more takes another sample of directions."));
+}
+
+/// What the bake chooses by itself where it has a tolerance to meet.
+constexpr const char* kByTolerance = "By tolerance";
+
+void declareAutomatic(RichParameterList& p) {
+  p.addParam(
+      RichFloat("tolerance", 0.0f, "Tolerance",
+                "The error of the surface to reach, 0.0001 to 1: RMS over the surface, between the vertices too, "
+                "relative to the unshadowed transfer; 0.02 is two per cent. Whatever is left to be chosen by tolerance "
+                "below is, and so are the rays where none are given. 0: none; the vertices get an error of 1 %."));
+  p.addParam(
+      RichEnum("transfer", 3,
+               QStringList() << "Unshadowed"
+                             << "Shadowed"
+                             << "Interreflected" << kByTolerance,
+               "Transfer",
+               "How much of the light's way counts: the cosine alone (in closed form), shadows too, or shadows and "
+               "the reflections between parts of the mesh. By tolerance: interreflected; with a tolerance, less where "
+               "that gives the same."));
+  p.addParam(
+      RichEnum("fit", 3,
+               QStringList() << "Vertex"
+                             << "Surface"
+                             << "Automatic" << kByTolerance,
+               "Fit",
+               "Vertex: the transfer at the vertices. Surface: what interpolates best between them, in about twice the "
+               "time. Automatic: fitted or smoothed where samples show that it helps. By tolerance: automatic with a "
+               "tolerance, else vertex."));
+}
+
+/// What refinement is told of flat regions; `most` is the default of its vertex limit.
+void declareFlat(RichParameterList& p, int most) {
+  p.addParam(RichFloat("flat", static_cast<float>(RefineOptions{}.flatDegrees), "Flat angle",
+                       "Faces within this angle of a plane, 0 to 45 degrees, make a flat region. It decides only which "
+                       "faces may be divided: shape and normals never change."));
+  p.addParam(RichInt("max_vertices", most, "Most vertices",
+                     "Vertices that refinement may make of the layer in all, 1 to 700000000."));
+}
+
+/// The length of edges, with `diagonal` as what per cent are of.
+void declareLength(RichParameterList& p, const char* name, double diagonal, const char* help) {
+  const auto whole = static_cast<float>(diagonal);
+  p.addParam(LengthParameter(name, whole * kUsualLength, 0.0f, whole, "Edge length", help));
+}
+
+void declareRefinement(RichParameterList& p, double diagonal) {
+  p.addParam(RichEnum("refine", 3,
+                      QStringList() << "Nowhere"
+                                    << "To the edge length"
+                                    << "Where the light changes" << kByTolerance,
+                      "Refine flat regions",
+                      "Light is baked into vertices: a wall of two triangles keeps no shadow on its middle. The layer "
+                      "gets more vertices where it is flat, evenly or where the light on it changes, to an error of "
+                      "2 % or to the tolerance. By tolerance: where the light changes, if there is a tolerance."));
+  declareLength(p, "refine_length", diagonal,
+                "What edges in flat regions are divided to, where that is chosen; in the units of the scene, after the "
+                "layer's transform.");
+  declareFlat(p, static_cast<int>(RefinementOptions{}.maxVertices));
 }
 
 void declareSurface(RichParameterList& p) {
@@ -105,6 +164,52 @@ void declareSurface(RichParameterList& p) {
                        "Faces that meet at more than this angle share no smooth normal, 0 to 180 degrees."));
 }
 
+double lengthOf(const RichParameterList& p, const char* name) {
+  const double length = typedNumber(static_cast<float>(p.getAbsPerc(name)));
+  if (length > 0 && length <= static_cast<double>(std::numeric_limits<float>::max())) return length;
+  outOfRange("Edge length", numberText(length), "more than 0");
+}
+
+double flatDegreesOf(const RichParameterList& p) {
+  return realOf(p, "flat", "Flat angle", 0, 45);
+}
+
+std::size_t mostVerticesOf(const RichParameterList& p) {
+  return static_cast<std::size_t>(wholeOf(p, "max_vertices", "Most vertices", 1, 700'000'000));
+}
+
+/// What is left for the bake to choose, as the program decides without the option; the rest is set in `options`.
+AutoBakeOptions automaticOf(const RichParameterList& p, BakeMeshOptions& options) {
+  using Refinement = RefinementOptions::Kind;
+  AutoBakeOptions choose;
+  if (p.getFloat("tolerance") != 0) choose.tolerance = realOf(p, "tolerance", "Tolerance", 1e-4, 1);
+  const bool open = choose.tolerance.has_value();
+  const auto kind = choiceOf<std::optional<TransferKind>>(
+      p, "transfer", "Transfer",
+      {TransferKind::unshadowed, TransferKind::shadowed, TransferKind::interreflected, std::nullopt});
+  options.bake.kind = kind.value_or(TransferKind::interreflected);
+  choose.transfer = open && !kind;
+  options.fit.kind = choiceOf<std::optional<FitKind>>(
+                         p, "fit", "Fit", {FitKind::vertex, FitKind::surface, FitKind::automatic, std::nullopt})
+                         .value_or(open ? FitKind::automatic : FitKind::vertex);
+  RefinementOptions& refinement = choose.refinement;
+  refinement.kind =
+      choiceOf<std::optional<Refinement>>(p, "refine", "Refine flat regions",
+                                          {Refinement::none, Refinement::length, Refinement::automatic, std::nullopt})
+          .value_or(open ? Refinement::automatic : Refinement::none);
+  if (refinement.kind == Refinement::length) refinement.length = lengthOf(p, "refine_length");
+  refinement.flatDegrees = flatDegreesOf(p);
+  refinement.maxVertices = mostVerticesOf(p);
+  return choose;
+}
+
+/// What lengths of a layer are compared with: the diagonal of the box around it; 1 where it has none.
+double diagonalOf(const MeshModel* layer, Axes axes) {
+  if (layer == nullptr || layer->cm.bbox.IsNull()) return 1;
+  const auto diagonal = static_cast<double>(axes == Axes::world ? layer->cm.trBB().Diag() : layer->cm.bbox.Diag());
+  return diagonal > 0 && std::isfinite(diagonal) ? diagonal : 1;
+}
+
 const std::vector<sh::Window>& windows() {
   static const std::vector<sh::Window> all{sh::Window::none, sh::Window::hann, sh::Window::lanczos, sh::Window::gauss,
                                            sh::Window::automatic};
@@ -133,16 +238,10 @@ bool formatIsAscii(const RichParameterList& p) {
   return p.getBool("ascii");
 }
 
-void declareBake(RichParameterList& p) {
-  p.addParam(
-      RichEnum("transfer", 2,
-               QStringList() << "Unshadowed"
-                             << "Shadowed"
-                             << "Interreflected",
-               "Transfer",
-               "How much of the light's way counts: the cosine alone (in closed form), shadows too, or shadows and "
-               "the reflections between parts of the mesh."));
+void declareBake(const MeshModel* layer, RichParameterList& p) {
+  declareAutomatic(p);
   declareRays(p);
+  declareRefinement(p, diagonalOf(layer, Axes::world));
   declareSurface(p);
   p.addParam(RichBool("preview", true, "Show the visible sky as grey",
                       "Colour the vertices by the share of the sky that they see. The layer's own colours are kept for "
@@ -155,11 +254,9 @@ void declareBake(RichParameterList& p) {
 BakeChoice bakeChoice(const RichParameterList& p) {
   BakeChoice choice;
   BakeOptions& bake = choice.options.bake;
-  bake.kind = choiceOf<TransferKind>(p, "transfer", "Transfer",
-                                     {TransferKind::unshadowed, TransferKind::shadowed, TransferKind::interreflected});
+  choice.automatic = automaticOf(p, choice.options);
   bake.order = wholeOf(p, "order", "Order", 1, 8);
   bake.rays = wholeOf(p, "rays", "Rays", 0, 1 << 20);
-  bake.tolerance = realOf(p, "tolerance", "Tolerance", 1e-4, 1);
   bake.bounces = wholeOf(p, "bounces", "Reflections", BakeOptions::kBouncesAuto, 10000);
   const double distance = realOf(p, "max_distance", "Maximum distance", 0, std::numeric_limits<float>::max());
   if (distance > 0) bake.maxDistance = distance;
@@ -179,6 +276,30 @@ BakeChoice bakeChoice(const RichParameterList& p) {
   choice.options.points.creaseDegrees = realOf(p, "crease", "Crease angle", 0, 180);
   choice.otherLayers = p.getBool("other_layers");
   choice.preview = p.getBool("preview");
+  choice.threads = wholeOf(p, "threads", "Threads", 0, Parallel::kMostThreads);
+  return choice;
+}
+
+void declareRefine(const MeshModel* layer, RichParameterList& p) {
+  declareLength(p, "length", diagonalOf(layer, Axes::own),
+                "The length that edges in flat regions are to have. Most come out between 0.7 and 1.4 of it.");
+  declareFlat(p, static_cast<int>(RefineOptions{}.maxVertices));
+  p.addParam(RichFloat("crease", static_cast<float>(RefineOptions{}.creaseDegrees), "Crease angle",
+                       "Faces that meet at more than this angle, 0 to 180 degrees, share no normal: a region may end "
+                       "there. Where faces meet at less, a curved surface goes on, and it is no flat region."));
+  p.addParam(RichBool("keep_normals", false, "Keep normals",
+                      "Take the normals of the layer for its shading: they stay, new vertices get them interpolated, "
+                      "and edges stay at which they change. Otherwise all normals are made anew from the faces."));
+  p.addParam(RichInt("threads", 0, "Threads", "Threads to refine with, 0 to 1024. 0: all cores."));
+}
+
+RefineChoice refineChoice(const RichParameterList& p) {
+  RefineChoice choice;
+  choice.length = lengthOf(p, "length");
+  choice.options.flatDegrees = flatDegreesOf(p);
+  choice.options.maxVertices = mostVerticesOf(p);
+  choice.options.creaseDegrees = realOf(p, "crease", "Crease angle", 0, 180);
+  choice.keepNormals = p.getBool("keep_normals");
   choice.threads = wholeOf(p, "threads", "Threads", 0, Parallel::kMostThreads);
   return choice;
 }

@@ -16,8 +16,17 @@ namespace shbake::meshlab {
 /// What the bake filter is asked for.
 struct BakeChoice {
   BakeMeshOptions options;
+  AutoBakeOptions automatic;
   bool otherLayers = true;  ///< other visible layers cast shadows and reflect
   bool preview = true;      ///< show the visible share of the sky as grey
+  int threads = 0;
+};
+
+/// What the refining filter is asked for.
+struct RefineChoice {
+  RefineOptions options;
+  double length = 0;         ///< of edges, in the layer's own axes, > 0
+  bool keepNormals = false;  ///< the layer's normals are its shading; else they are made anew
   int threads = 0;
 };
 
@@ -43,13 +52,15 @@ extern const int kFormatMask;
 void declareFormat(RichParameterList& parameters);
 bool formatIsAscii(const RichParameterList& parameters);
 
-/// Parameters with their defaults, labels and tooltips.
-void declareBake(RichParameterList& parameters);
+/// Parameters with their defaults, labels and tooltips. Lengths are relative to `layer`, which may be null.
+void declareBake(const MeshModel* layer, RichParameterList& parameters);
+void declareRefine(const MeshModel* layer, RichParameterList& parameters);
 void declareRelight(RichParameterList& parameters);
 void declareSave(RichParameterList& parameters);
 
 /// The choices that parameters make. Throw a usage error that names the first parameter out of its range.
 BakeChoice bakeChoice(const RichParameterList& parameters);
+RefineChoice refineChoice(const RichParameterList& parameters);
 RelightChoice relightChoice(const RichParameterList& parameters);
 SaveChoice saveChoice(const RichParameterList& parameters);
 

@@ -38,6 +38,10 @@ Placement::Placement(const std::array<double, 16>& rows, const std::string& laye
   identity_ = linear_ == sh::Matrix3d{} && shift_ == Vec3d{};
 }
 
+Vec3d Placement::pointBack(const Vec3d& p) const {
+  return identity_ ? p : sh::transposed(cofactors_) * (p - shift_) * (1 / determinant_);
+}
+
 Vec3f Placement::normal(const Vec3f& n) const {
   if (identity_) return n;
   // The cofactors of a mirror turn normals to the other side.

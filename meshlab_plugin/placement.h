@@ -21,6 +21,8 @@ class Placement {
   bool mirrors() const { return determinant_ < 0; }
 
   Vec3d point(const Vec3d& p) const { return linear_ * p + shift_; }
+  /// The way back of point(), to rounding.
+  Vec3d pointBack(const Vec3d& p) const;
   /// A normal of unit length; zero stays zero.
   Vec3f normal(const Vec3f& n) const;
   /// The way back of normal().

@@ -60,12 +60,16 @@ QString FilterShbake::filterInfo(FilterIDType id) const {
   return filterTexts().at(static_cast<std::size_t>(id)).help;
 }
 
+MeshFilterInterface::FilterClass FilterShbake::getClass(QAction* action) {
+  return filterOf(ID(action)) == Filter::refine ? MeshFilterInterface::Remeshing : MeshFilterInterface::Quality;
+}
+
 int FilterShbake::postCondition(QAction* action) const {
   return changesOf(filterOf(ID(action)));
 }
 
-void FilterShbake::initParameterSet(QAction* action, MeshDocument&, RichParameterList& parameters) {
-  declareParameters(filterOf(ID(action)), parameters);
+void FilterShbake::initParameterSet(QAction* action, MeshDocument& document, RichParameterList& parameters) {
+  declareParameters(filterOf(ID(action)), document.mm(), parameters);
 }
 
 bool FilterShbake::applyFilter(QAction* action, MeshDocument& document, const RichParameterList& parameters,

@@ -20,7 +20,7 @@ class FilterShbake : public QObject, public MeshFilterInterface, public MeshIOIn
   QString pluginName() const override { return QStringLiteral("shbake"); }
   QString filterName(FilterIDType id) const override;
   QString filterInfo(FilterIDType id) const override;
-  FilterClass getClass(QAction*) override { return MeshFilterInterface::Quality; }
+  FilterClass getClass(QAction* action) override;
   FILTER_ARITY filterArity(QAction*) const override { return SINGLE_MESH; }
   int postCondition(QAction* action) const override;
   void initParameterSet(QAction* action, MeshDocument& document, RichParameterList& parameters) override;

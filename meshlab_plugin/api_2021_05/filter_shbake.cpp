@@ -64,13 +64,17 @@ QString FilterShbake::filterInfo(ActionIDType id) const {
   return filterTexts().at(static_cast<std::size_t>(id)).help;
 }
 
+FilterPlugin::FilterClass FilterShbake::getClass(const QAction* action) const {
+  return filterOf(ID(action)) == Filter::refine ? FilterPlugin::Remeshing : FilterPlugin::Quality;
+}
+
 int FilterShbake::postCondition(const QAction* action) const {
   return changesOf(filterOf(ID(action)));
 }
 
-RichParameterList FilterShbake::initParameterList(const QAction* action, const MeshDocument&) {
+RichParameterList FilterShbake::initParameterList(const QAction* action, const MeshDocument& document) {
   RichParameterList parameters;
-  declareParameters(filterOf(ID(action)), parameters);
+  declareParameters(filterOf(ID(action)), document.mm(), parameters);
   return parameters;
 }
 

@@ -20,7 +20,7 @@ class FilterShbake : public QObject, public FilterPlugin, public IOPlugin {
   QString filterName(ActionIDType id) const override;
   QString pythonFilterName(ActionIDType id) const override;
   QString filterInfo(ActionIDType id) const override;
-  FilterClass getClass(const QAction*) const override { return FilterPlugin::Quality; }
+  FilterClass getClass(const QAction* action) const override;
   FilterArity filterArity(const QAction*) const override { return SINGLE_MESH; }
   int postCondition(const QAction* action) const override;
   RichParameterList initParameterList(const QAction* action, const MeshDocument& document) override;

@@ -37,6 +37,23 @@ def read_columns(path):
     return dict(zip(names, map(list, zip(*rows)), strict=True))
 
 
+def read_faces(path):
+    """The triangles of a binary file whose faces have nothing before their list of vertices."""
+    data = path.read_bytes()
+    end = data.index(b"end_header\n") + len(b"end_header\n")
+    formats, counts, element = {"vertex": "<", "face": "<B3i"}, {}, ""
+    for line in data[:end].decode().splitlines():
+        words = line.split()
+        if words[0] == "element":
+            element = words[1]
+            counts[element] = int(words[2])
+        elif words[0] == "property" and words[1] != "list":
+            formats[element] += TYPES[words[1]]
+    start = end + counts["vertex"] * struct.calcsize(formats["vertex"])
+    rows = data[start:start + counts["face"] * struct.calcsize(formats["face"])]
+    return [row[1:4] for row in struct.iter_unpack(formats["face"], rows)]
+
+
 def read_obj(path):
     """Positions and triangles of an OBJ file; polygons become fans."""
     vertices, faces = [], []

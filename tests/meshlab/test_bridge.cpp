@@ -1,5 +1,8 @@
-// Layers to meshes and back: deleted vertices, splits, colours, turns; and bakes that are cancelled again and again.
+// Layers to meshes and back: deleted vertices, splits, colours, turns, new vertices; and bakes that are cancelled again
+// and again.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 
 #include "meshlab_plugin/api.h"
@@ -45,7 +48,7 @@ constexpr int kLongBake = 1 << 18;
 
 RichParameterList bakeParameters(int rays) {
   RichParameterList parameters;
-  declareParameters(Filter::bake, parameters);
+  declareParameters(Filter::bake, nullptr, parameters);
   parameters.setValue("rays", IntValue(rays));
   return parameters;
 }
@@ -56,6 +59,50 @@ bool goOn(int, const std::string&) {
 
 void bakeLayer(MeshDocument& document, int rays = 64) {
   Filters().apply(Filter::bake, document, bakeParameters(rays), goOn);
+}
+
+std::vector<std::string> refineLayer(MeshDocument& document, float length, bool keepNormals = false) {
+  RichParameterList parameters;
+  declareParameters(Filter::refine, document.mm(), parameters);
+  parameters.setValue("length", AbsPercValue(length));
+  parameters.setValue("keep_normals", BoolValue(keepNormals));
+  return Filters().apply(Filter::refine, document, parameters, goOn);
+}
+
+/// Gives each vertex and corner of a layer what is an affine function of its place.
+void paintByPlace(MeshModel& layer) {
+  layer.updateDataMask(MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY | MeshModel::MM_FACECOLOR |
+                       MeshModel::MM_WEDGTEXCOORD);
+  for (CVertexO& v : layer.cm.vert) {
+    v.C() = vcg::Color4b(static_cast<unsigned char>(100 + 40 * v.cP()[0]), 60, 200, 255);
+    v.Q() = 2 * v.cP()[0] - v.cP()[2];
+  }
+  for (CFaceO& f : layer.cm.face) {
+    f.C() = vcg::Color4b(10, 20, 30, 255);
+    for (int k = 0; k < 3; ++k) {
+      f.WT(k).P() = {f.cV(k)->cP()[0] / 4, f.cV(k)->cP()[1] / 2};
+      f.WT(k).N() = 3;
+    }
+  }
+}
+
+/// Checks that all vertices and corners of a layer have what paintByPlace() gave them, to rounding.
+void checkPaint(const CMeshO& m) {
+  for (const CVertexO& v : m.vert) {
+    // Whole numbers of colours are rounded once more in between.
+    CHECK(std::abs(v.cC()[0] - (100 + 40 * v.cP()[0])) <= 1);
+    CHECK(v.cC()[1] == 60);
+    CHECK(v.cC()[2] == 200);
+    CHECK(std::abs(v.cQ() - (2 * v.cP()[0] - v.cP()[2])) < 1e-5f);
+  }
+  for (const CFaceO& f : m.face) {
+    CHECK(f.cC()[2] == 30);
+    for (int k = 0; k < 3; ++k) {
+      CHECK(std::abs(f.cWT(k).U() - f.cV(k)->cP()[0] / 4) < 1e-6f);
+      CHECK(std::abs(f.cWT(k).V() - f.cV(k)->cP()[1] / 2) < 1e-6f);
+      CHECK(f.cWT(k).N() == 3);
+    }
+  }
 }
 
 std::size_t residentBytes() {
@@ -136,6 +183,88 @@ TEST_CASE("bridge: a preview that is taken back leaves the layer's own colours i
   // Painting the layer makes new colours its own.
   for (CVertexO& v : layer.cm.vert) v.C() = vcg::Color4b(0, 255, 0, 255);
   for (const Rgb& c : readLayer(layer).mesh.vertexColors) CHECK(c == Rgb{0, 1, 0});
+}
+
+TEST_CASE("bridge: refining keeps vertices, colours, quality, texture coordinates and the transform") {
+  MeshDocument document;
+  MeshModel& layer = addBox(document, 3);
+  paintByPlace(layer);
+  layer.cm.Tr.SetTranslate(5, 6, 7);
+  const LayerMesh before = readLayer(layer, Axes::own);
+  const std::vector<std::string> lines = refineLayer(document, 0.5f);
+  // Eight squares of this length along each side of the floor, and two along those of the box.
+  CHECK(layer.cm.vn > 12 + 60);
+  CHECK(layer.cm.vert.size() == static_cast<std::size_t>(layer.cm.vn));
+  CHECK(layer.cm.Tr.ElementAt(1, 3) == 6);
+  for (std::size_t v = 0; v < 12; ++v) CHECK(Vec3d(readSurface(layer).positions[v]) == before.mesh.positions[v]);
+  checkPaint(layer.cm);
+  CHECK_THAT(lines[0], Catch::Matchers::Contains("6 refined"));
+  // The area is that of the floor, of the box's four sides and its top.
+  double area = 0;
+  for (const CFaceO& f : layer.cm.face) area += vcg::DoubleArea(f) / 2;
+  CHECK(area == Approx(16 + 4 + 1).epsilon(1e-6));
+}
+
+TEST_CASE("bridge: normals are made anew, or kept and interpolated") {
+  MeshDocument document;
+  MeshModel& layer = addBox(document);
+  const bool keep = GENERATE(false, true);
+  for (CVertexO& v : layer.cm.vert) v.N() = Point3m(0, 0.6f, 0.8f);
+  refineLayer(document, 0.5f, keep);
+  const Point3m given(0, 0.6f, 0.8f), up(0, 0, 1);
+  const Point3m expected = keep ? given : up;
+  std::size_t onFloor = 0;
+  for (const CVertexO& v : layer.cm.vert) {
+    if (v.cP()[2] > 0 || std::abs(v.cP()[0]) <= 0.5f) continue;
+    CHECK((v.cN() - expected).Norm() < 1e-6f);
+    ++onFloor;
+  }
+  CHECK(onFloor > 30);
+}
+
+TEST_CASE("bridge: refining drops a bake and shows the layer's own colours again") {
+  MeshDocument document;
+  MeshModel& layer = addBox(document);
+  const bool colored = GENERATE(false, true);
+  if (colored) paintByPlace(layer);
+  bakeLayer(document, 16);
+  const std::vector<std::string> lines = refineLayer(document, 0.5f);
+  CHECK_FALSE(holdsTransfer(layer));
+  CHECK(layer.cm.vert_attr.empty());
+  CHECK_THAT(lines.back(), Catch::Matchers::Contains("has been dropped"));
+  CHECK(layer.hasDataMask(MeshModel::MM_VERTCOLOR) == colored);
+  for (const CVertexO& v : layer.cm.vert) CHECK(v.cC()[1] == (colored ? 60 : 255));
+  bakeLayer(document, 16);
+  CHECK(readTransfer(layer).transfer.size() == static_cast<std::size_t>(layer.cm.vn));
+}
+
+TEST_CASE("bridge: a bake that refines gives the layer its mesh, where it stands") {
+  MeshDocument document;
+  MeshModel& layer = addBox(document, 2);
+  paintByPlace(layer);
+  layer.cm.Tr.SetScale(-2, 2, 2);
+  RichParameterList parameters = bakeParameters(16);
+  parameters.setValue("refine", EnumValue(1));
+  parameters.setValue("refine_length", AbsPercValue(1));
+  Filters().apply(Filter::bake, document, parameters, goOn);
+  CHECK(layer.cm.vn > 24 + 60);
+  const StoredTransfer stored = readTransfer(layer);
+  CHECK(stored.transfer.size() == static_cast<std::size_t>(layer.cm.vn));
+  // Faces wind as they did, and corners have the places and texture coordinates of their vertices.
+  const BakedPly baked = readBakedLayer(layer, SavedColors::own);
+  for (const Triangle& f : baked.mesh.triangles) {
+    const auto& p = baked.mesh.positions;
+    const Vec3d n = normalized(cross(p[f[1]] - p[f[0]], p[f[2]] - p[f[0]]));
+    CHECK(length(n - Vec3d(baked.mesh.vertexNormals[f[0]])) < 1e-5);
+  }
+  for (const CFaceO& f : layer.cm.face) {
+    for (int k = 0; k < 3; ++k) CHECK(std::abs(f.cWT(k).U() - f.cV(k)->cP()[0] / 4) < 1e-6f);
+  }
+  for (std::size_t v = 0; v < baked.mesh.positions.size(); ++v) {
+    const double x = baked.mesh.positions[v].x / -2;
+    CHECK(std::abs(baked.mesh.vertexColors[v].x - static_cast<float>((100 + 40 * x) / 255)) <= 1.f / 255);
+  }
+  CHECK(std::ranges::count(baked.sourceVertex, kNewVertex) > 60);
 }
 
 TEST_CASE("bridge: two layers are baked in turn") {

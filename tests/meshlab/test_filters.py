@@ -104,7 +104,7 @@ class Bake(PluginTest):
         code, text = staged_meshlab.run_server(self.prefix, self.screen, "-d", self.folder / "dump.txt")
         self.assertEqual(code, 0, text)
         dump = (self.folder / "dump.txt").read_text(errors="replace")
-        for name in ("SH Bake Light Transfer", "SH Relight", "SH Save Baked PLY"):
+        for name in ("SH Bake Light Transfer", "SH Refine Flat Regions", "SH Relight", "SH Save Baked PLY"):
             self.assertIn(name, dump)
 
     def test_same_bytes_as_the_program(self):
@@ -115,7 +115,9 @@ class Bake(PluginTest):
              ["--transfer", "shadowed", "--order", 3, "--rays", 64, "--seed", 7]),
             ({"normals": 2, "rays": 32}, ["--normals", "flat", "--rays", 32]),
             ({"crease": 20.5, "rays": 32}, ["--crease", "20.5", "--rays", 32]),
-            ({"tolerance": 0.05, "bounces": 2}, ["--tolerance", 0.05, "--bounces", 2]),
+            ({"bounces": 2, "rays": 32}, ["--bounces", 2, "--rays", 32]),
+            ({"fit": 1, "rays": 32}, ["--fit", "surface", "--rays", 32]),
+            ({"fit": 2, "rays": 32}, ["--fit", "auto", "--rays", 32]),
             ({"albedo": 1, "albedo_red": 0.7, "albedo_green": 0.33, "albedo_blue": 0.1, "rays": 32},
              ["--albedo", "0.7,0.33,0.1", "--rays", 32]),
             ({"max_distance": 0.9, "two_sided": True, "rays": 32, "order": 8},
@@ -161,6 +163,84 @@ class Bake(PluginTest):
         code, text = self.apply(shipped_filter("bake", rays=16), shipped_filter("save", file=saved, ascii=True))
         self.assertEqual(code, 0, text)
         self.assertEqual(saved.read_bytes(), self.bake_there("--normals", "smooth", "--rays", 16, "--ascii"))
+
+
+class Refine(PluginTest):
+    def refined_here(self, *before, options=("-m", "vc", "fc"), **values):
+        """The file that MeshLab writes after the filter, and what it printed."""
+        out = self.folder / "refined.ply"
+        code, text = self.apply(*before, shipped_filter("refine", **values), options=["-o", out, *options])
+        self.assertEqual(code, 0, text)
+        return out, text
+
+    def refined_there(self, *options):
+        self.program("refine", self.mesh, "-o", "refined_there.ply", "-q", *options)
+        return self.folder / "refined_there.ply"
+
+    def test_same_vertices_and_faces_as_the_program(self):
+        vertices, faces = sphere_over_floor()
+        ply.write_mesh(self.mesh, vertices, faces, colors=rainbow(vertices))
+        for values, options in [({"length": 0.5}, ["--length", 0.5]),
+                                ({"length": 0.3, "flat": 45, "crease": 20}, ["--length", 0.3, "--flat", 45, "--crease", 20])]:
+            with self.subTest(values):
+                here, text = self.refined_here(**values)
+                there = self.refined_there(*options)
+                columns = ply.read_columns(here)
+                expected = ply.read_columns(there)
+                self.assertGreater(len(columns["x"]), len(vertices) + 20, text)
+                for name in ("x", "y", "z", "red", "green", "blue"):
+                    self.assertEqual(columns[name], expected[name], name)
+                self.assertEqual(ply.read_faces(here), ply.read_faces(there))
+                self.assertIn("refined", text)
+
+    def test_nothing_flat_changes_nothing(self):
+        vertices, faces = sphere_over_floor()
+        ply.write_mesh(self.mesh, vertices[4:], [[i - 4 for i in f] for f in faces[2:]])
+        here, text = self.refined_here(length=0.1)
+        self.assertIn("the layer is as it was", text)
+        self.assertEqual(len(ply.read_columns(here)["x"]), len(vertices) - 4)
+
+    def test_a_bake_is_dropped_with_a_word(self):
+        self.assert_message(self.apply(shipped_filter("bake", rays=16), shipped_filter("refine", length=0.5),
+                                       shipped_filter("relight")),
+                            "the light that was baked has been dropped", "holds no baked light transfer")
+
+    def test_a_bake_after_it_has_the_transfer_of_the_refined_mesh(self):
+        here = self.bake_here(shipped_filter("refine", length=0.5), rays=32)
+        columns = ply.read_columns(self.folder / "here.ply")
+        self.program("bake", self.refined_there("--length", 0.5), "-o", "there.ply", "-q", "--normals", "smooth", "--rays", 32)
+        self.assertEqual(columns, ply.read_columns(self.folder / "there.ply"))
+        self.assertIn(b"sh_15", here)
+
+    def test_the_bake_refines_as_the_program_does(self):
+        cases = [({"refine": 1, "refine_length": 0.7, "rays": 32}, ["--refine", 0.7, "--rays", 32]),
+                 ({"refine": 2, "rays": 64, "flat": 2}, ["--refine", "auto", "--rays", 64, "--flat", 2]),
+                 ({"refine": 0, "fit": 0, "tolerance": 0.3}, ["--tolerance", 0.3, "--refine", "no", "--fit", "vertex"]),
+                 ({"tolerance": 0.1}, ["--tolerance", 0.1])]
+        for values, options in cases:
+            with self.subTest(values):
+                self.assertEqual(self.bake_here(**values), self.bake_there("--normals", "smooth", *options))
+        refined = ply.read_columns(self.folder / "here.ply")
+        self.assertIn(-1, refined["source_vertex"])
+
+    def test_a_refining_bake_of_a_coloured_layer(self):
+        vertices, faces = sphere_over_floor()
+        ply.write_mesh(self.mesh, vertices, faces, colors=rainbow(vertices))
+        there = self.bake_there("--normals", "smooth", "--rays", 32, "--refine", 0.7)
+        self.assertEqual(self.bake_here(rays=32, refine=1, refine_length=0.7), there)
+
+    def test_choices_are_told(self):
+        saved = self.folder / "here.ply"
+        code, text = self.apply(shipped_filter("bake", tolerance=0.1), shipped_filter("save", file=saved))
+        self.assertEqual(code, 0, text)
+        for part in ("chosen: transfer interreflected", "chosen: refine ", "chosen: rays ", "chosen: fit ", "surface error: "):
+            self.assertIn(part, text)
+
+    def test_a_convex_mesh_needs_no_rays_for_its_tolerance(self):
+        vertices, faces = sphere_over_floor()
+        ply.write_mesh(self.mesh, vertices[4:], [[i - 4 for i in f] for f in faces[2:]])
+        self.assertEqual(self.bake_here(tolerance=0.1), self.bake_there("--normals", "smooth", "--tolerance", 0.1))
+        self.assertIn(b"transfer=unshadowed", (self.folder / "here.ply").read_bytes())
 
 
 class Layers(PluginTest):
@@ -347,9 +427,11 @@ class Format(PluginTest):
 class WrongValues(PluginTest):
     def test_bake(self):
         cases = [("order", 0, "Order: 0 is out of range"), ("order", 9, "Order: 9"), ("rays", -1, "Rays: -1"),
-                 ("rays", 1048577, "Rays: 1048577"), ("tolerance", 0, "Tolerance: 0"), ("tolerance", 2, "Tolerance: 2"),
+                 ("rays", 1048577, "Rays: 1048577"), ("tolerance", 0.00001, "Tolerance: 1e-05"), ("tolerance", -1, "Tolerance: -1"), ("tolerance", 2, "Tolerance: 2"),
                  ("tolerance", "nan", "Tolerance: nan"), ("bounces", -2, "Reflections: -2"),
-                 ("max_distance", -1, "Maximum distance: -1"), ("seed", -1, "Seed: -1"), ("transfer", 3, "Transfer: 3"),
+                 ("max_distance", -1, "Maximum distance: -1"), ("seed", -1, "Seed: -1"), ("transfer", 4, "Transfer: 4"),
+                 ("fit", 4, "Fit: 4"), ("refine", 4, "Refine flat regions: 4"), ("flat", 46, "Flat angle: 46"),
+                 ("max_vertices", 0, "Most vertices: 0"),
                  ("transfer", -1, "Transfer: -1"), ("albedo", 4, "Albedo from: 4"),
                  ("albedo_green", 1.5, "Uniform albedo, green: 1.5"), ("normals", 7, "Normals: 7"),
                  ("crease", 181, "Crease angle: 181"), ("threads", -1, "Threads: -1"), ("threads", 5000, "Threads: 5000"),
@@ -357,6 +439,21 @@ class WrongValues(PluginTest):
         for name, value, message in cases:
             with self.subTest(f"{name}={value}"):
                 self.assert_message(self.apply(shipped_filter("bake", **{name: value})), message)
+
+    def test_bake_to_a_length(self):
+        for values, message in [({"refine_length": 0}, "Edge length: 0 is out of range"),
+                                ({"refine_length": -1}, "Edge length: -1"),
+                                ({"refine_length": 0.1, "max_vertices": 100}, "vertices")]:
+            with self.subTest(values):
+                self.assert_message(self.apply(shipped_filter("bake", refine=1, **values)), message)
+
+    def test_refine(self):
+        cases = [("length", 0, "Edge length: 0 is out of range"), ("length", "nan", "Edge length: nan"),
+                 ("flat", -1, "Flat angle: -1"), ("crease", 181, "Crease angle: 181"),
+                 ("max_vertices", 0, "Most vertices: 0"), ("threads", -1, "Threads: -1")]
+        for name, value, message in cases:
+            with self.subTest(f"{name}={value}"):
+                self.assert_message(self.apply(shipped_filter("refine", **{name: value})), message)
 
     def test_relight(self):
         self.bake_there("--rays", 16)

@@ -49,6 +49,16 @@ TEST_CASE("placement: the identity changes nothing, to the last bit") {
   CHECK(identity.point({0.1, 0.2, 0.3}) == Vec3d{0.1, 0.2, 0.3});
 }
 
+TEST_CASE("placement: a point finds its way back") {
+  const sh::Matrix3d turn = sh::rotationAbout({1, 2, 3}, 0.7);
+  for (const Vec3d& scale : {Vec3d{2, 0.5, 3}, Vec3d{-1, 1, 4}}) {
+    const Placement placement(rowsOf(turn, {1, -2, 3}, scale), "layer");
+    const Vec3d p{0.3, -0.7, 5};
+    CHECK(length(placement.pointBack(placement.point(p)) - p) < 1e-14);
+  }
+  CHECK(Placement().pointBack({0.1, 0.2, 0.3}) == Vec3d{0.1, 0.2, 0.3});
+}
+
 TEST_CASE("placement: normals stay at right angles to the surface under scaling, and turn with a mirror") {
   // The plane through x + y = 1 becomes 2 x + y = ... when x is halved: its normal is (2, 1, 0).
   const Placement squeezed(rowsOf({}, {5, 6, 7}, {0.5, 1, 1}), "layer");
