@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kMostRounds = 24;
 /// Rays of a probe. Their noise cancels in the mean; they only have to tell strong errors from none.
-constexpr int kCoarseRays = 64, kFineRays = 128;
+constexpr int kCoarseRays = 32, kFineRays = 64;
 constexpr double kFineTarget = 0.01;
 /// The estimate of the squared error scatters by this share.
 constexpr double kScatter = 0.05;
