@@ -103,9 +103,10 @@ class SurfaceBench {
   void toleranceRow(double tolerance) {
     const Trial t = bakeTo(tolerance, FitKind::automatic);
     const TransferFacts& facts = t.bake.baked.facts;
-    std::printf("%-24s %-14s %5.1f | %6.2f %5.2f %-3s | %8zu %5d %8.2fM %7.2fs |", label_.c_str(), transferName(kind_),
-                100 * tolerance, 100 * t.error.rms, t.error.rms / tolerance, t.bake.met ? "yes" : "no",
-                t.bake.baked.transfer.size(), facts.rays, t.rays / 1e6, t.seconds);
+    std::printf("%-24s %-14s %5.1f | %6.2f +-%4.2f %5.2f %-3s | %8zu %5d %8.2fM %7.2fs |", label_.c_str(),
+                transferName(kind_), 100 * tolerance, 100 * t.error.rms, 50 * (t.error.high - t.error.low),
+                t.error.rms / tolerance, t.bake.met ? "yes" : "no", t.bake.baked.transfer.size(), facts.rays,
+                t.rays / 1e6, t.seconds);
     if (options_.sweep && t.bake.met) printBest(sweep(tolerance, t), t);
     if (!t.bake.met && !t.bake.baked.warnings.empty()) std::printf(" %s", t.bake.baked.warnings.back().c_str());
     std::printf("\n");
@@ -280,7 +281,8 @@ void run(const Options& o) {
   }
   if (has("tolerances")) {
     std::printf(
-        "order %d; tolerance, error and its share of the tolerance, whether met; vertices, rays a vertex, all "
+        "order %d; tolerance, error with its 95 %% interval and its share of the tolerance, whether met; vertices, "
+        "rays a vertex, all "
         "rays and CPU time%s\n",
         o.order, o.sweep ? "; the best setting by hand and the ratios of cost and time to the best" : "");
     each([&](SurfaceBench& bench) {
