@@ -111,10 +111,10 @@ Outcome measureLids(const Bench& bench) {
   return judgeSkies(cases, bench);
 }
 
-/// At a gap of 1e-6, some 17 units in the last place of a float, a turn moves the rim of one sheet against the other's
-/// by up to 1/17 of the gap. A vertex on the rim then looks past the other sheet by as many radians more or less, which
-/// is noticeable. Three quarters of the vertices are on the rim, of one pair of sheets in eight: a third of these may
-/// fail.
+/// At a gap of 1e-6, some 17 units in the last place of a float, the traversal's single precision is off by about a
+/// unit in the side on which a ray passes an edge. A vertex on the rim then looks past the other sheet by up to 1/17
+/// radian more or less, which is noticeable. Three quarters of the vertices are on the rim, of one pair of sheets in
+/// eight: a third of these may fail.
 constexpr double kRoundedGaps = 1.0 / 32;
 
 #define SHBAKE_VERTEX_FAILS "a vertex fails when its transfer is off by 2 % of an open point's"
