@@ -38,8 +38,9 @@ std::string drawChart(const ChartData& data, ChartFormat format, Progress& progr
     });
   } else {
     const bool svg = format == ChartFormat::svg;
-    bytes =
-        runGnuplot(gnuplotScript(panelsOf(data), data.mesh, svg ? PictureFormat::svg : PictureFormat::png), progress);
+    bytes = runGnuplot(gnuplotScript(panelsOf(data), "Speed and accuracy of " + data.mesh,
+                                     svg ? PictureFormat::svg : PictureFormat::png),
+                       progress);
   }
   progress.end();
   return bytes;

@@ -78,6 +78,34 @@ Json bouncesJson(const ChartData& data) {
   return {{"rays", data.bounces.rays}, {"points", points}};
 }
 
+const char* refinementName(SurfaceRefinement refinement) {
+  switch (refinement) {
+    case SurfaceRefinement::even:
+      return "even";
+    case SurfaceRefinement::automatic:
+      return "auto";
+    default:
+      return "none";
+  }
+}
+
+Json surfaceJson(const ChartData& data) {
+  if (data.surface.points.empty()) return nullptr;
+  Json points = Json::array();
+  for (const SurfacePoint& p : data.surface.points) {
+    points.push_back({{"refinement", refinementName(p.refinement)},
+                      {"asked", p.refinement == SurfaceRefinement::none ? Json(nullptr) : Json(p.asked)},
+                      {"fitted", p.fitted},
+                      {"vertices", p.vertices},
+                      {"cpu", p.cpu},
+                      {"error", p.error.rms},
+                      {"low", p.error.low},
+                      {"high", p.error.high},
+                      {"samples", p.error.samples}});
+  }
+  return {{"rays", data.surface.rays}, {"points", points}};
+}
+
 Json adviceJson(const ChartData& data) {
   Json advice = Json::array();
   const std::vector<std::string> sentences = adviceSentences(data);
@@ -113,6 +141,7 @@ std::string chartJson(const ChartData& data) {
       {"light", data.light.empty() ? Json(nullptr) : Json(data.light)},
       {"orders", ordersJson(data)},
       {"reflections", bouncesJson(data)},
+      {"surface", surfaceJson(data)},
       {"advice", adviceJson(data)},
       {"notes", data.notes},
       {"seconds", data.seconds},

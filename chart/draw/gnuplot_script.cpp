@@ -18,6 +18,8 @@ constexpr std::array<int, 8> kMarks{7, 5, 9, 11, 13, 4, 8, 12};
 constexpr int kWidth = 800, kHeight = 640;  // of a panel, in pixels
 /// Space beyond the outermost places on logarithmic axes, as a factor.
 constexpr double kMargin = 1.35;
+/// Ranges of fewer decades have ticks named between these.
+constexpr double kFineDecades = 2.6;
 
 /// A string of gnuplot in single quotes, where nothing but the quote itself has a meaning.
 std::string quoted(const std::string& text) {
@@ -43,20 +45,23 @@ struct Range {
   }
 };
 
-/// 1, 2, 5, 10 ... within a range of few decades, else whole decades.
+/// Named ticks at 1, 2, 5, 10 ... within a range of few decades, at all digits within less than one, else at whole
+/// decades; small ones without a name at all other digits.
 std::string logarithmicTicks(const Range& range) {
-  const bool fine = std::log10(range.high / range.low) < 2.6;
+  const double decades = std::log10(range.high / range.low);
   std::string ticks;
   for (int decade = static_cast<int>(std::floor(std::log10(range.low))); std::pow(10, decade) <= range.high; ++decade) {
-    for (const int digit : {1, 2, 5}) {
+    for (int digit = 1; digit <= 9; ++digit) {
       const double tick = digit * std::pow(10, decade);
-      if (tick < range.low || tick > range.high || (digit != 1 && !fine)) continue;
+      if (tick < range.low || tick > range.high) continue;
+      const bool isFine = digit == 2 || digit == 5;
+      const bool isNamed = digit == 1 || (isFine && decades < kFineDecades) || decades < 1;
       std::array<char, 64> text;
       const int digits = std::max(0, -decade);
       const auto end =
           std::to_chars(text.data(), text.data() + text.size(), tick, std::chars_format::fixed, digits).ptr;
       const std::string name(text.data(), end);
-      ticks += (ticks.empty() ? "" : ", ") + quoted(name) + " " + number(tick);
+      ticks += (ticks.empty() ? "" : ", ") + quoted(isNamed ? name : "") + " " + number(tick) + (isNamed ? " 0" : " 1");
     }
   }
   return ticks;
@@ -123,7 +128,7 @@ std::string gnuplotScript(std::span<const Panel> panels, const std::string& titl
   std::string script = "set encoding utf8\nset terminal " + terminal + "\n";
   script +=
       "set grid lc rgb '#dddddd' lt 1 lw 0.8\nset border 3 lc rgb '#444444'\nset tics nomirror\n"
-      "set key below center horizontal Left reverse maxcols 2 samplen 2 spacing 1.15 title ' '\n"
+      "set key below center horizontal Left reverse maxcols 2 width -4 samplen 2 spacing 1.15 title ' '\n"
       "set lmargin 9\nset rmargin 3\n";
   if (count > 1)
     script += "set multiplot layout " + std::to_string(rows) + "," + std::to_string(columns) + " title " +

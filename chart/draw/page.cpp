@@ -90,6 +90,7 @@ std::string chartPage(const ChartData& data, const DrawPanel& draw) {
   replaceAll(page, "@title@", escaped("Speed and accuracy of " + data.mesh));
   page += "<ul class=\"advice\">\n";
   for (const std::string& sentence : adviceSentences(data)) page += "<li>" + escaped(sentence) + "</li>\n";
+  for (const std::string& sentence : surfaceSentences(data)) page += "<li>" + escaped(sentence) + "</li>\n";
   page += "</ul>\n";
   for (const Panel& panel : panelsOf(data)) {
     std::string svg = inlineSvg(draw(panel), panel.name + "-");

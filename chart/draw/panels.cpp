@@ -76,9 +76,9 @@ Panel ordersPanel(const ChartData& data) {
   panel.title = "Error against order";
   panel.x = {"order: bands of spherical harmonics", false};
   panel.y = {"error in %", true};
-  Series missing{"bands left out", Series::Style::strong, 0, {}};
-  Series lit{"the same under the light", Series::Style::line, 1, {}};
-  Series sampling{"rays (" + std::to_string(data.defaults.rays) + ")", Series::Style::dashed, 2, {}};
+  Series missing{"bands left out, all lights alike", Series::Style::strong, 0, {}};
+  Series lit{"bands left out, under the light", Series::Style::line, 1, {}};
+  Series sampling{"rays (" + std::to_string(data.defaults.rays) + "), within the bands", Series::Style::dashed, 2, {}};
   for (const OrderPoint& p : data.orders) {
     const auto add = [&](Series& series, double error) {
       if (error > 0) series.places.push_back({double(p.order), kPercent * error});
@@ -113,11 +113,64 @@ Panel bouncesPanel(const ChartData& data) {
   return panel;
 }
 
+/// The bakes of a mesh that was refined in one way, from the mesh as it is on.
+Series surfaceSeries(const ChartData& data, SurfaceRefinement refinement, bool fitted) {
+  const bool even = refinement != SurfaceRefinement::automatic;
+  Series series;
+  series.title = even ? "even edges" : "finer where the light changes";
+  if (fitted) series.title += ", fitted";
+  series.style = fitted ? Series::Style::dashed : even ? Series::Style::line : Series::Style::strong;
+  series.color = even ? 1 : 0;
+  std::size_t refined = 0;
+  for (const SurfacePoint& p : data.surface.points) {
+    const bool asIs = p.refinement == SurfaceRefinement::none;
+    if (p.fitted != fitted || !(asIs || p.refinement == refinement) || p.error.rms <= 0) continue;
+    refined += asIs ? 0 : 1;
+    series.places.push_back({double(p.vertices), kPercent * p.error.rms});
+  }
+  if (refined == 0) series.places.clear();
+  return series;
+}
+
+/// The mesh as it is, by itself.
+Series asItIs(const ChartData& data, bool fitted) {
+  Series series{fitted ? "the mesh as it is, fitted" : "the mesh as it is: the default",
+                fitted ? Series::Style::rings : Series::Style::star,
+                0,
+                {}};
+  for (const SurfacePoint& p : data.surface.points) {
+    if (p.refinement != SurfaceRefinement::none || p.fitted != fitted || p.error.rms <= 0) continue;
+    series.places.push_back({double(p.vertices), kPercent * p.error.rms});
+  }
+  return series;
+}
+
+Panel surfacePanel(const ChartData& data) {
+  Panel panel;
+  panel.name = "surface";
+  panel.title = "Error between the vertices against their number";
+  panel.x = {"vertices", true};
+  panel.y = {"error between the vertices in %", true};
+  for (const SurfaceRefinement refinement : {SurfaceRefinement::automatic, SurfaceRefinement::even}) {
+    for (const bool fitted : {false, true}) panel.series.push_back(surfaceSeries(data, refinement, fitted));
+  }
+  for (const bool fitted : {true, false}) panel.series.push_back(asItIs(data, fitted));
+  panel.caption =
+      "What a viewer sees: the error of the shadowed transfer that is interpolated at random places of the surface, "
+      "RMS, "
+      "relative to the unshadowed transfer; " +
+      std::to_string(data.surface.rays) +
+      " rays a vertex. Flat parts were divided into even edges (--refine LENGTH) and where the light changes (--refine "
+      "auto), each with the transfer of the vertices themselves and with values that interpolate best (--fit auto).";
+  return panel;
+}
+
 }  // namespace
 
 std::vector<Panel> panelsOf(const ChartData& data) {
   std::vector<Panel> panels;
-  for (Panel panel : {directionsPanel(data), programsPanel(data), ordersPanel(data), bouncesPanel(data)}) {
+  for (Panel panel :
+       {directionsPanel(data), programsPanel(data), ordersPanel(data), bouncesPanel(data), surfacePanel(data)}) {
     if (hasPlaces(panel)) panels.push_back(std::move(panel));
   }
   return panels;

@@ -23,6 +23,9 @@ std::string reachText(const Reach& reach, double value, int digits);
 /// is none.
 std::vector<std::string> adviceSentences(const ChartData& data);
 
+/// What the error between the vertices is and what lowers it; nothing where it was not measured.
+std::vector<std::string> surfaceSentences(const ChartData& data);
+
 /// What was measured and how, one sentence each: mesh, reference, its noise, notes.
 std::vector<std::string> measurementSentences(const ChartData& data);
 
@@ -32,7 +35,7 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// The numbers of the panels: methods by rays, methods as a whole, orders, reflections.
+/// The numbers of the panels: methods by rays, methods as a whole, orders, reflections, errors between the vertices.
 std::vector<Table> tablesOf(const ChartData& data);
 
 }  // namespace shbake::chart

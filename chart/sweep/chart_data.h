@@ -9,6 +9,7 @@
 #include "chart/methods/method.h"
 #include "chart/sweep/curve.h"
 #include "chart/sweep/reference.h"
+#include "transfer/transfer_set.h"
 
 namespace shbake::chart {
 
@@ -47,6 +48,28 @@ struct BounceStudy {
   std::vector<BouncePoint> points;
 };
 
+/// What became of the flat parts of a mesh.
+enum class SurfaceRefinement {
+  none,      ///< they stay as they are
+  even,      ///< edges of one length (mesh/refine.h)
+  automatic  ///< finer where the light changes (pipeline/auto_refine.h)
+};
+
+/// One bake whose error between the vertices was measured.
+struct SurfacePoint {
+  SurfaceRefinement refinement = SurfaceRefinement::none;
+  double asked = 0;          ///< the length of edges in file units, or the error of interpolation that was aimed at
+  bool fitted = false;       ///< with values that interpolate best where samples show that it helps
+  std::size_t vertices = 0;  ///< of the mesh
+  double cpu = 0;            ///< CPU seconds of refinement, bake and fit
+  SurfaceError error;
+};
+
+struct SurfaceStudy {
+  int rays = 0;                      ///< of each vertex; 0: not measured
+  std::vector<SurfacePoint> points;  ///< in the order in which they were measured, a fit behind what it is a fit of
+};
+
 /// What to ask for to reach an error.
 struct Advice {
   double error = 0;
@@ -71,6 +94,7 @@ struct ChartData {
   std::string light;  ///< what OrderPoint::lit is for; empty: none
   std::vector<OrderPoint> orders;
   BounceStudy bounces;
+  SurfaceStudy surface;
   std::vector<Advice> advice;
   std::vector<std::string> notes;  ///< what was left out and why, one sentence each
   double seconds = 0;              ///< that measuring took, by the wall clock

@@ -9,12 +9,13 @@
 #include "chart/sweep/order_study.h"
 #include "chart/sweep/reference.h"
 #include "chart/sweep/sample.h"
+#include "chart/sweep/surface_study.h"
 
 namespace shbake::chart {
 namespace {
 
 /// The parts of the budget by whose ends each part of the work is done; what is left is for drawing.
-constexpr double kReferenceEnd = 0.3, kSweepEnd = 0.75, kBouncesEnd = 0.95;
+constexpr double kReferenceEnd = 0.25, kSweepEnd = 0.6, kBouncesEnd = 0.75, kSurfaceEnd = 0.95;
 /// Orders are measured on fewer points: sampling them costs next to nothing, and they differ by factors.
 constexpr std::size_t kOrderPoints = 512;
 
@@ -45,6 +46,10 @@ double secondsPerRay(const ChartData& data) {
   return ours->points.back().cpu / ours->points.back().rays;
 }
 
+double secondsPerPointRay(const ChartData& data) {
+  return secondsPerRay(data) / static_cast<double>(data.points);
+}
+
 }  // namespace
 
 const MethodCurve* curveOf(const ChartData& data, const char* id) {
@@ -57,6 +62,8 @@ ChartData measureChart(const LightingPoints& points, const MeasureOptions& o, co
                        Progress& progress) {
   validate(o);
   const Deadline deadline(o.budget);
+  // Without the last part the others share its time.
+  const double whole = o.surface == nullptr ? kSurfaceEnd / kBouncesEnd : 1;
   ChartData data;
   data.mesh = o.mesh;
   data.points = points.size();
@@ -69,14 +76,14 @@ ChartData measureChart(const LightingPoints& points, const MeasureOptions& o, co
 
   const std::vector<std::uint32_t> sample = samplePoints(points.size(), o.sample);
   const MadeReference made = makeReference(bed, sample, {.rays = o.referenceRays, .cache = o.cache},
-                                           deadline.at(kReferenceEnd), parallel, progress);
+                                           deadline.at(whole * kReferenceEnd), parallel, progress);
   const Reference& reference = made.reference;
   data.referencePoints = reference.points;
   data.referenceRays = reference.rays;
   data.cache = made.cache;
   noteCache(made.cache, o.cache, data);
 
-  runSweep(bed, sample, reference, o.sweep, deadline.at(kSweepEnd), progress, data);
+  runSweep(bed, sample, reference, o.sweep, deadline.at(whole * kSweepEnd), progress, data);
   if (data.measuredPoints < points.size()) {
     data.notes.push_back("errors and times were measured on " + counted(data.measuredPoints, "of ") +
                          counted(points.size(), "points, spread over the mesh; times are scaled up to all of them"));
@@ -85,7 +92,12 @@ ChartData measureChart(const LightingPoints& points, const MeasureOptions& o, co
   if (o.light != nullptr) data.light = o.lightName;
   data.orders = studyOrders(bed, sample, reference, std::min(data.measuredPoints, kOrderPoints), data.defaults.rays,
                             o.light, parallel, progress);
-  studyBounces(points, data.order, secondsPerRay(data), deadline.at(kBouncesEnd), parallel, progress, data);
+  studyBounces(points, data.order, secondsPerRay(data), deadline.at(whole * kBouncesEnd), parallel, progress, data);
+  if (o.surface != nullptr) {
+    const SurfaceStudyOptions study{
+        .order = data.order, .rays = data.defaults.rays, .secondsPerPointRay = secondsPerPointRay(data)};
+    studySurface(*o.surface, study, deadline.at(kSurfaceEnd), parallel, progress, data);
+  }
   data.advice = adviseSettings(data);
   data.seconds = deadline.passed();
   return data;

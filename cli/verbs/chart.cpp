@@ -23,7 +23,7 @@ class Chart : public Verb {
 
  private:
   void checkPaths() const;
-  LightingPoints readPoints(Session& session) const;
+  LightingPoints pointsOf(const Mesh& mesh, Session& session) const;
   void describe(const chart::ChartData& data, Session& session) const;
 
   std::string mesh_, output_;
@@ -52,8 +52,7 @@ void Chart::checkPaths() const {
   if (format != chart::ChartFormat::json) chart::requireGnuplot();
 }
 
-LightingPoints Chart::readPoints(Session& session) const {
-  const Mesh mesh = readMesh(mesh_, session.progress);
+LightingPoints Chart::pointsOf(const Mesh& mesh, Session& session) const {
   for (const std::string& sentence : mesh.warnings) session.warn(sentence);
   const ResolvedAlbedo albedo = resolveAlbedo(mesh, {});
   for (const std::string& sentence : albedo.warnings) session.warn(sentence);
@@ -63,7 +62,9 @@ LightingPoints Chart::readPoints(Session& session) const {
 void Chart::run(Session& session) {
   options_.cache = output_ + ".reference";
   checkPaths();
-  const LightingPoints points = readPoints(session);
+  const Mesh mesh = readMesh(mesh_, session.progress);
+  const LightingPoints points = pointsOf(mesh, session);
+  options_.surface = &mesh;
   const ViewLight view = light_.make(chart::kTruncationOrder, false, session);
   const Light light = view.at(points.frame.centre);
   options_.mesh = fs::path(mesh_).filename().string();
@@ -93,6 +94,9 @@ void Chart::describe(const chart::ChartData& data, Session& session) const {
   const std::vector<std::string> advice = chart::adviceSentences(data);
   report.data("advice", advice);
   for (std::size_t i = 0; i < advice.size(); ++i) report.line(i == 0 ? "advice" : "", advice[i]);
+  const std::vector<std::string> surface = chart::surfaceSentences(data);
+  report.data("surface", surface);
+  for (std::size_t i = 0; i < surface.size(); ++i) report.line(i == 0 ? "surface" : "", surface[i]);
   report.data("notes", data.notes);
   for (std::size_t i = 0; i < data.notes.size(); ++i) report.line(i == 0 ? "note" : "", data.notes[i]);
   report.fact("seconds", data.seconds, "time", formatDuration(data.seconds));
@@ -107,8 +111,8 @@ const VerbEntry chartVerb{
     "chart", "MESH -o FILE", "chart speed against accuracy on a mesh",
     "Measures on MESH what settings of shbake and other methods err and cost, against a reference of many rays, and "
     "draws it: error against CPU time for 16 to 4096 rays a point, error against order, error against reflections, "
-    "with "
-    "a table of the numbers and the settings to use for 5, 2, 1 and 0.5 %. FILE.reference keeps the reference for the "
+    "the error between the vertices against their number (refined, fitted and as they are), with a table of the "
+    "numbers and the settings to use for 5, 2, 1 and 0.5 %. FILE.reference keeps the reference for the "
     "next time; work that was stopped goes on there.\n"
     "\n"
     "Examples:\n"

@@ -48,6 +48,16 @@ ChartData example() {
   data.defaultTolerance = 0.01;
   for (int n = 1; n <= 8; ++n) data.orders.push_back({n, 0.5 / n, {}, 0.01, 0.1});
   data.bounces = {64, {{0, false, 0.1, 1}, {1, false, 0.01, 1.1}, {3, true, 1e-3, 1.2}}};
+  data.surface.rays = 64;
+  using enum SurfaceRefinement;
+  const auto surface = [](double rms) {
+    return SurfaceError{
+        .samples = 2048, .rays = 512, .rms = rms, .low = rms * 0.9, .high = rms * 1.1, .worst = 1, .worstPosition = {}};
+  };
+  data.surface.points = {{none, 0, false, 400, 1, surface(0.2)},
+                         {none, 0, true, 400, 2, surface(0.15)},
+                         {even, 0.25, false, 1600, 4, surface(0.1)},
+                         {automatic, 0.08, true, 900, 3, surface(0.05)}};
   data.advice = {{0.05, true, 32, 0.3, 1}, {0.005, false, 0, 0, {}}};
   data.notes = {"a note"};
   return data;
@@ -81,11 +91,22 @@ TEST_CASE("the JSON holds what the chart shows", "[chart_file]") {
   CHECK(json["orders"].size() == 8);
   CHECK(json["orders"][0]["under_light"].is_null());
   CHECK(json["reflections"]["points"][2]["auto"] == true);
+  REQUIRE(json["surface"]["points"].size() == 4);
+  CHECK(json["surface"]["rays"] == 64);
+  CHECK(json["surface"]["points"][0]["asked"].is_null());
+  CHECK(json["surface"]["points"][1]["fitted"] == true);
+  CHECK(json["surface"]["points"][2]["refinement"] == "even");
+  CHECK(json["surface"]["points"][2]["asked"] == 0.25);
+  CHECK(json["surface"]["points"][3]["refinement"] == "auto");
+  CHECK(json["surface"]["points"][3]["vertices"] == 900);
+  CHECK(json["surface"]["points"][3]["error"] == 0.05);
   CHECK(json["advice"][0]["bounces"] == 1);
   CHECK(json["advice"][1]["rays"].is_null());
   CHECK(json["notes"][0] == "a note");
   ChartData bare = example();
   bare.bounces = {};
+  bare.surface = {};
+  CHECK(nlohmann::json::parse(chartJson(bare))["surface"].is_null());
   CHECK(nlohmann::json::parse(chartJson(bare))["reflections"].is_null());
 }
 
@@ -101,21 +122,45 @@ TEST_CASE("a page needs nothing else and takes text as text", "[chart_file]") {
   CHECK(page.find("Gnuplot") == std::string::npos);
   CHECK(page.find("<title>Error against order</title>") != std::string::npos);
   CHECK(page.find("viewport") != std::string::npos);
-  for (const char* name : {"directions", "programs", "orders", "bounces"}) {
+  for (const char* name : {"directions", "programs", "orders", "bounces", "surface"}) {
     CHECK(page.find(std::string("id=\"") + name + "-a\"") != std::string::npos);
     CHECK(page.find(std::string("'#") + name + "-a'") != std::string::npos);
     CHECK(page.find(std::string("url(#") + name + "-a)") != std::string::npos);
   }
   CHECK(page.find("use --rays 32 --bounces 1") != std::string::npos);
+  CHECK(page.find("Between its 400 vertices the mesh errs 20 %") != std::string::npos);
+  CHECK(page.find("5 % with --refine auto, aimed at 8 % and --fit auto: 900 vertices, 3.00 s") != std::string::npos);
   CHECK(page.find("For 0.5 % error more rays are needed") != std::string::npos);
   CHECK(inlineSvg("no picture", "x-").empty());
 }
 
 TEST_CASE("panels without numbers are left out", "[chart_file]") {
-  CHECK(panelsOf(example()).size() == 4);
+  CHECK(panelsOf(example()).size() == 5);
   ChartData data = example();
   data.bounces = {};
+  CHECK(panelsOf(data).size() == 4);
+  data.surface = {};
   CHECK(panelsOf(data).size() == 3);
+}
+
+TEST_CASE("refined meshes are joined to the mesh as it is, which stands alone where nothing was refined",
+          "[chart_file]") {
+  const auto placesOf = [](const ChartData& data, const std::string& title) {
+    const std::vector<Panel> panels = panelsOf(data);
+    for (const Series& s : panels.back().series) {
+      if (s.title == title) return s.places.size();
+    }
+    return std::size_t(99);
+  };
+  ChartData data = example();
+  CHECK(placesOf(data, "even edges") == 2);
+  CHECK(placesOf(data, "even edges, fitted") == 0);
+  CHECK(placesOf(data, "finer where the light changes") == 0);
+  CHECK(placesOf(data, "finer where the light changes, fitted") == 2);
+  data.surface.points.resize(2);
+  CHECK(placesOf(data, "even edges") == 0);
+  CHECK(placesOf(data, "the mesh as it is: the default") == 1);
+  CHECK(placesOf(data, "the mesh as it is, fitted") == 1);
 }
 
 TEST_CASE("numbers are written as people read them", "[chart_file]") {
