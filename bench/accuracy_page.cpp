@@ -189,7 +189,7 @@ generated; the others are looked for in the folder that the CMake variable `SHBA
   such as the rings of the Gauss product, that includes what these err; more rays do mend it.
 
 )";
-  return text + "Measured on " + run.machine + ".\n\nMethods:\n\n";
+  return text + "Measured with `" + run.command + "` on " + run.machine + ".\n\nMethods:\n\n";
 }
 
 std::string methodsList() {
@@ -205,9 +205,13 @@ std::string targets(const AccuracyRun& run) {
          "from 64 to 4096 rays; Green's loop takes 3 times as long to 1 % error on every mesh, 4.5 times on scans (the "
          "bunny, the\n"
          "armadillo), and libigl's 5 times wherever it gets there. What misses its aim is **bold**. \"Over the front\" "
-         "is the factor\n"
-         "by which some measured setting is both faster and more exact than the default: 1 or less is on the "
-         "front.\n\n" +
+         "compares the\n"
+         "default with each measured setting: how many times as fast that is, how many times as exact, the less of the "
+         "two, and of\n"
+         "these the most. Below 1 none is both faster and more exact; at exactly 1 one equals it in time or error; "
+         "above "
+         "1 one is\n"
+         "better in both, and the figure is bold even where it rounds to 1.00.\n\n" +
          markdown(targetsTable(run.meshes));
 }
 

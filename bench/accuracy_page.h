@@ -14,6 +14,7 @@ struct AccuracyRun {
   std::vector<chart::ChartData> meshes;
   std::vector<std::string> pictures;  ///< file names of the charts of the first meshes, in docs/images
   chart::Table exclusion;             ///< the small scenes with known answers
+  std::string command;                ///< with its options, as it was given
   std::string machine;                ///< what it ran on
 };
 

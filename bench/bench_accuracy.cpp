@@ -8,6 +8,7 @@
 #include "accuracy_page.h"
 #include "base/atomic_file.h"
 #include "chart/draw/chart_file.h"
+#include "chart/draw/text.h"
 #include "chart/sweep/measure_chart.h"
 #include "exclusion_cases.h"
 #include "light/synthetic.h"
@@ -93,8 +94,17 @@ chart::ChartData measure(const std::string& name, const Options& o, const Light&
   return chart::measureChart(points, options, Parallel(), progress);
 }
 
+/// The command line that measures the same again.
+std::string commandOf(const Options& o) {
+  std::string command =
+      "bench_accuracy --budget " + chart::significantText(o.budget, 6) + " --sample " + std::to_string(o.sample);
+  for (const std::string& name : o.meshes) command += " " + labelOf(name);
+  return command;
+}
+
 void run(const Options& o) {
   AccuracyRun result;
+  result.command = commandOf(o);
   result.machine = machineName();
   result.exclusion = exclusionTable();
   const Light light = discLight(chart::kTruncationOrder, {0, 0.6, 0.8}, 5, {1, 1, 1});
