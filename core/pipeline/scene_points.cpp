@@ -6,7 +6,9 @@ namespace shbake {
 
 ScenePoints makeScenePoints(const Mesh& mesh, const std::vector<Mesh>& blockers, const LightingPointOptions& points,
                             const AlbedoOptions& albedo, Progress& progress) {
-  ScenePoints result{{}, resolveAlbedo(mesh, albedo)};
+  // Not as an initialiser: where it throws, GCC 12 destroys the members before it twice.
+  ScenePoints result;
+  result.albedo = resolveAlbedo(mesh, albedo);
   if (blockers.empty()) {
     result.points = makeLightingPoints(mesh, points, result.albedo.albedo, progress);
     return result;
