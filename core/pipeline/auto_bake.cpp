@@ -216,6 +216,8 @@ class AutoBaker {
     }
     const std::string missed = percent(refined_->after);
     if (refined_->end == RefineEnd::noFlat) return tell("refine", "no", "no part of the mesh is flat");
+    if (refined_->end == RefineEnd::flatFine)
+      return tell("refine", "no", "few parts are flat, and miss too little there");
     if (refined_->rounds == 1) return tell("refine", "no", "interpolation misses " + missed + " as it is");
     std::string reason = "interpolation missed " + percent(refined_->before) + " and now " + missed;
     const double even = report.flatArea / (std::sqrt(3.0) / 2 * refined_->shortest * refined_->shortest);
@@ -234,6 +236,7 @@ class AutoBaker {
     if (!refined_) return text + "the mesh was to stay as it is; allow it to be refined";
     switch (refined_->end) {
       case RefineEnd::noFlat:
+      case RefineEnd::flatFine:
         return text + "it lies between the vertices of curved parts, which are not divided; subdivide them";
       case RefineEnd::flatDone:
         return text + percent(refined_->curved) +

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "bake/interpolation_error.h"
@@ -41,8 +42,14 @@ constexpr double kLeastGain = 0.1;
 /// and after this many such rounds there is nothing to gain.
 constexpr int kPatience = 3;
 
-/// The stream of random numbers that the next round's seed is taken from.
-constexpr std::uint64_t kNextRound = 1;
+/// Flat regions below this share of the surface are first judged by themselves, at this many places,
+constexpr double kFewFlat = 0.05;
+constexpr std::size_t kGlancePlaces = 512;
+/// and left as they are where they have no more than this share of the squared error that may be left.
+constexpr double kGlanceShare = 0.1;
+
+/// The streams of random numbers that the next round's seed and that of a glance are taken from.
+constexpr std::uint64_t kNextRound = 1, kGlance = 2;
 
 /// What interpolation misses at a place of a flat face.
 struct Miss {
@@ -114,6 +121,10 @@ class AutoRefiner {
       result_.end = RefineEnd::noFlat;
       return std::move(result_);
     }
+    if (!flatPartsMatter()) {
+      result_.end = RefineEnd::flatFine;
+      return std::move(result_);
+    }
     int idle = 0;
     double last = 0;
     for (;;) {
@@ -150,6 +161,27 @@ class AutoRefiner {
   }
 
   std::uint32_t regionOf(std::uint32_t face) const { return regions_[result_.refined.sourceFace[face]]; }
+
+  /// A scan has some faces that happen to be flat. Places on them alone need the light of their corners alone, as long
+  /// as reflections are left out: that costs next to nothing where judging the whole mesh costs half a bake.
+  bool flatPartsMatter() {
+    ScenePoints scene = makeScenePoints(mesh_, blockers_, pointOptions_, albedo_, progress_);
+    std::vector<double> areas = areaWeights(scene.points, mesh_.triangles.size());
+    const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
+    for (std::uint32_t f = 0; f < areas.size(); ++f) {
+      if (regions_[f] == LightingPoints::kNone) areas[f] = 0;
+    }
+    const double flat = std::accumulate(areas.begin(), areas.end(), 0.0);
+    if (flat == 0 || flat > kFewFlat * area) return flat > 0;
+    BakeOptions direct = probe_;
+    direct.kind = TransferKind::shadowed;
+    const std::vector<SurfacePlace> places =
+        drawPlaces(scene.points, areas, kGlancePlaces, hashBits(probe_.seed, kGlance), progress_);
+    const std::vector<double> squares =
+        interpolationSquares(std::move(scene.points), places, direct, parallel_, progress_);
+    const double mean = std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(squares.size());
+    return flat / area * mean > kGlanceShare * options_.target * options_.target;
+  }
 
   /// How many places each face shall have, on average.
   std::vector<double> placesWanted(const std::vector<double>& areas) const {
@@ -228,21 +260,30 @@ class AutoRefiner {
       field_.want(cell);
       finest_ = std::max(finest_, cell.level);
     }
-    const RefineOptions refineOptions{options_.flatDegrees, pointOptions_.creaseDegrees};
-    RefinedMesh next = refineFlatRegions(
-        mesh_, refineOptions,
-        [this](std::uint32_t face, const Vec3d& place) {
-          const std::uint32_t level = field_.levelAt(regions_[face], place);
-          return level == 0 ? std::numeric_limits<double>::infinity() : field_.lengthOf(level);
-        },
-        parallel_, progress_);
-    if (next.mesh.positions.size() > options_.maxVertices) {
+    std::optional<RefinedMesh> next = refineAsWanted();
+    if (!next) {
       result_.end = RefineEnd::budget;
       return false;
     }
-    result_.refined = std::move(next);
+    result_.refined = std::move(*next);
     result_.shortest = field_.lengthOf(finest_);
     return true;
+  }
+
+  /// Nothing where that takes more vertices than allowed.
+  std::optional<RefinedMesh> refineAsWanted() const {
+    const RefineOptions refineOptions{options_.flatDegrees, pointOptions_.creaseDegrees, options_.maxVertices};
+    const auto wanted = [this](std::uint32_t face, const Vec3d& place) {
+      const std::uint32_t level = field_.levelAt(regions_[face], place);
+      return level == 0 ? std::numeric_limits<double>::infinity() : field_.lengthOf(level);
+    };
+    try {
+      return refineFlatRegions(mesh_, refineOptions, wanted, parallel_, progress_);
+    } catch (const Error& e) {
+      // The mesh has been baked before: there is nothing else that could be wrong with it.
+      if (e.kind() == ErrorKind::cancelled) throw;
+      return std::nullopt;
+    }
   }
 
   const Mesh& mesh_;

@@ -30,6 +30,7 @@ enum class RefineEnd {
   met,        ///< the error of interpolation is within the target
   flatDone,   ///< what is left above the target lies on curved faces
   noFlat,     ///< there is no flat region
+  flatFine,   ///< flat regions are a small part of the surface and miss too little to matter; the rest was not judged
   budget,     ///< the next step would have taken more vertices than allowed
   noProgress  ///< more vertices no longer lower the error
 };

@@ -132,6 +132,26 @@ TEST_CASE("a budget of vertices is kept", "[auto_refine]") {
   CHECK(refined.after < refined.before);
 }
 
+TEST_CASE("few flat faces that are lit evenly are passed over, those in a shadow are not", "[auto_refine]") {
+  // A lumpy sphere and a small tile far from it, which sees the whole sky.
+  const Mesh lump = shapes::icosphere(2, 0.2);
+  const Mesh tile = shapes::grid({50, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0});
+  const AutoRefinement open = refine(shapes::merged(lump, tile), 0.05);
+  CHECK(open.end == RefineEnd::flatFine);
+  CHECK(open.rounds == 0);
+  CHECK(open.refined.mesh.positions == shapes::merged(lump, tile).positions);
+  // The same tile with a box on it.
+  const Mesh box = shapes::box({50.2, 0.2, 0}, {50.3, 0.3, 0.4});
+  CHECK(refine(shapes::merged(shapes::merged(lump, tile), box), 0.02).rounds > 1);
+}
+
+TEST_CASE("a mesh of more vertices than allowed stays as it is", "[auto_refine]") {
+  const Mesh mesh = boxOnFloor();
+  const AutoRefinement refined = refine(mesh, 0.05, shadowed(), mesh.positions.size() - 1);
+  CHECK(refined.end == RefineEnd::budget);
+  CHECK(refined.refined.mesh.positions == mesh.positions);
+}
+
 TEST_CASE("refinement does not depend on threads, and stops when asked", "[auto_refine]") {
   const Mesh mesh = boxOnFloor();
   const AutoRefinement one = refine(mesh, 0.05), other = refine(mesh, 0.05, shadowed(), 1'000'000, 3);
