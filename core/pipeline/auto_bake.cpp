@@ -198,13 +198,16 @@ class AutoBaker {
         tell("bounces", "all", "in " + std::to_string(facts.bounces) + " steps, to a tenth of the error of the points");
       }
     }
-    if (!baked.fitNote.empty()) tell("fit", facts.fit.any() ? "surface" : "vertex", baked.fitNote);
+    if (!baked.fitNote.empty()) {
+      const FitFacts& fit = facts.fit;
+      tell("fit", fit.fittedPoints > 0 ? "surface" : fit.smoothedPoints > 0 ? "smoothed" : "vertex", baked.fitNote);
+    }
     if (!result_.met) result_.baked.warnings.push_back(whyNot());
   }
 
   void tellChannels() {
     if (result_.baked.transfer.channels == 3) return tell("channels", "3", "the albedo has colour");
-    tell("channels", "1", "the albedo is grey: a third of the storage and of the reflections' work");
+    tell("channels", "1", "the albedo is grey: a third of the storage");
   }
 
   void tellRefinement() {
@@ -224,8 +227,7 @@ class AutoBaker {
     char text[32];
     std::snprintf(text, sizeof text, "%.2g", even);
     reason += std::string("; even edges as short as the shortest would take ") + text + " vertices";
-    tell("refine",
-         count(mesh_.positions.size()) + " -> " + count(refined_->refined.mesh.positions.size()) + " vertices", reason);
+    tell("refine", vertices, reason);
   }
 
   /// Why the tolerance was not met, as a warning.
@@ -233,7 +235,14 @@ class AutoBaker {
     const SurfaceError& surface = result_.baked.facts.surface;
     std::string text =
         "the surface error is " + percent(surface.rms) + ", above the tolerance of " + percent(tolerance()) + ": ";
+    const double noise = left().noise * result_.baked.facts.rmsError * result_.baked.facts.rmsError;
+    if (!openRays_ && noise > surface.rms * surface.rms / 2) return text + "the rays were given; allow more of them";
+    if (options_.bake.kind == TransferKind::unshadowed)
+      return text + "it lies between the vertices; subdivide the mesh";
     if (!refined_) return text + "the mesh was to stay as it is; allow it to be refined";
+    if (choose_.refinement.kind == RefinementOptions::Kind::length) {
+      return text + "edges have the length that was given; give a shorter one, or auto";
+    }
     switch (refined_->end) {
       case RefineEnd::noFlat:
       case RefineEnd::flatFine:

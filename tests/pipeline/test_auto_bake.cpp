@@ -214,6 +214,33 @@ TEST_CASE("where a tolerance cannot be met a warning says why", "[auto_bake]") {
   CHECK_THAT(stays.baked.warnings.back(), Catch::Contains("allow it to be refined"));
 }
 
+TEST_CASE("what was given by hand is named where it is why a tolerance is missed", "[auto_bake]") {
+  BakeMeshOptions options;
+  options.bake.kind = TransferKind::shadowed;
+  AutoBakeOptions coarse = toTolerance(0.03);
+  coarse.refinement.kind = RefinementOptions::Kind::length;
+  coarse.refinement.length = 8;
+  const AutoBake edges = bake(boxOnFloor(), coarse, options);
+  CHECK_FALSE(edges.met);
+  CHECK_THAT(edges.baked.warnings.back(), Catch::Contains("give a shorter one"));
+  AutoBakeOptions fine = toTolerance(0.04);
+  options.bake.rays = 16;
+  const AutoBake rays = bake(boxOnFloor(), fine, options);
+  CHECK_FALSE(rays.met);
+  CHECK_THAT(rays.baked.warnings.back(), Catch::Contains("allow more of them"));
+}
+
+TEST_CASE("a choice names what became of the vertex values", "[auto_bake]") {
+  BakeMeshOptions options;
+  options.fit.kind = FitKind::automatic;
+  const AutoBake baked = bake(boxOnFloor(), toTolerance(0.1), options);
+  const FitFacts& fit = baked.baked.facts.fit;
+  REQUIRE(find(baked, "fit"));
+  CHECK(find(baked, "fit")->value == (fit.fittedPoints > 0     ? "surface"
+                                      : fit.smoothedPoints > 0 ? "smoothed"
+                                                               : "vertex"));
+}
+
 TEST_CASE("the same bytes for any number of threads", "[auto_bake]") {
   const AutoBake one = bake(boxOnFloor(), toTolerance(0.1)), other = bake(boxOnFloor(), toTolerance(0.1), {}, 3);
   CHECK(one.baked.transfer.coefficients == other.baked.transfer.coefficients);
