@@ -22,8 +22,10 @@ FILTERS, RENDERER, PROGRAM = (pathlib.Path(p).resolve() for p in sys.argv[1:4])
 SCREEN = (1280, 1024)
 # What of the main window shows the mesh, whatever dialogs are open at its left.
 VIEW = (520, 100, 320, 700)
-# In Debian's MeshLab, counted upwards from the end of their menus.
-QUALITY_MENU, BAKE, RELIGHT = 9, 7, 6
+# The filters' menus and entries in Debian's MeshLab, both counted upwards from the end.
+BAKE, RELIGHT, REFINE = (9, 7), (9, 6), (13, 21)
+# The buttons of a single layer that show its edges, and that give them one colour.
+EDGES, ONE_COLOR = (1039, 114), (1191, 605)
 # Bytes of a picture in which nothing has changed are the same; a blinking cursor is not in the view.
 STILL = 0.01
 # MeshLab shows and hides the thin lines of its trackball on its own: pictures that are the same but for these.
@@ -145,14 +147,15 @@ class WindowTest(unittest.TestCase):
         if folder:
             self.picture().write_png(pathlib.Path(folder) / f"{name}.png")
 
-    def open_filter(self, from_end, name):
+    def open_filter(self, place, name):
         """Chooses a filter from the menu; its dialog."""
+        menu, entry = place
         self.do("windowfocus", "--sync", self.window)
         self.click(121, 10)
         time.sleep(0.3)
-        self.keys(*["Up"] * QUALITY_MENU, "Right")
+        self.keys(*["Up"] * menu, "Right")
         time.sleep(0.2)
-        self.keys(*["Up"] * from_end)
+        self.keys(*["Up"] * entry)
         time.sleep(0.2)
         self.keep("menu")
         self.keys("Return")
@@ -227,6 +230,51 @@ class Bake(WindowTest):
         self.start(self.folder / "knot.ply")
         self.keys("ctrl+q")
         wait_until(lambda: self.meshlab.poll() is not None, 30, "MeshLab to end")
+
+
+class Refine(WindowTest):
+    def test_the_layer_gets_vertices_and_loses_nothing(self):
+        # A knot over a floor of two triangles, each vertex in a colour of its own.
+        vertices, faces = knot(60, 12)
+        first = len(vertices)
+        vertices += [(4.0 * x, 4.0 * y, -2.0) for y in (-1, 1) for x in (-1, 1)]
+        faces += [(first, first + 1, first + 3), (first, first + 3, first + 2)]
+        colors = [tuple(int(127 + 120 * math.sin(c + k)) for k, c in enumerate(v)) for v in vertices]
+        mesh = self.folder / "knot.ply"
+        ply.write_mesh(mesh, vertices, faces, colors=colors)
+        columns, knot_faces = ply.read_columns(mesh), faces[:-2]
+        self.start(mesh)
+        self.click(*EDGES)
+        before = self.settle()
+        dialog = self.open_filter(REFINE, "SH Refine Flat Regions")
+        self.keep("refine")
+        self.apply(dialog)
+        wait_until(lambda: "Applied filter SH Refine Flat Regions" in self.logged(), 60, "the refinement")
+        # MeshLab draws edges in the colours of their vertices once a filter has made some.
+        self.click(*ONE_COLOR)
+        self.assertGreater(self.settle().difference(before), TURNED, "the window still shows the old mesh")
+        self.keep("refined")
+        # Saves the layer as the file that it came from.
+        self.do("windowfocus", "--sync", self.window)
+        self.keys("ctrl+e")
+        options = self.wait_for_window("Choose Saving Options")
+        self.do("windowfocus", "--sync", options)
+        self.keys("Return")
+        wait_until(lambda: "Saved Mesh" in self.logged(), 30, "the file")
+        refined, refined_faces = ply.read_columns(mesh), ply.read_faces(mesh)
+        self.assertGreater(len(refined["x"]), len(vertices) + 1000)
+        for name, values in columns.items():
+            self.assertEqual(refined[name][:len(vertices)], values, name)
+        self.assertEqual(set(refined["z"][len(vertices):]), {-2.0})
+        # The faces of the knot are all there, and those of the floor cover what its two triangles covered.
+        self.assertLessEqual(set(knot_faces), set(refined_faces))
+        floor = [f for f in refined_faces if all(refined["z"][i] == -2.0 for i in f)]
+        self.assertEqual(len(floor), len(refined_faces) - len(knot_faces))
+        x, y = refined["x"], refined["y"]
+        area = sum((x[b] - x[a]) * (y[c] - y[a]) - (x[c] - x[a]) * (y[b] - y[a]) for a, b, c in floor) / 2
+        # Vertices within the floor cancel out, whatever their rounding; each product of doubles is at most 64.
+        self.assertAlmostEqual(area, 64, delta=64 * 2**-52 * len(floor))
+        self.assert_alive()
 
 
 class Relight(WindowTest):
