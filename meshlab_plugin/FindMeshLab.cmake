@@ -22,9 +22,14 @@ if(NOT meshlab_source)
   set(meshlab_source ${meshlab_cache}/source)
 endif()
 
-foreach(needed src/common/meshmodel.h vcglib/vcg/complex/complex.h ML_VERSION)
+# Later releases have vcglib in src.
+set(meshlab_vcglib vcglib)
+if(EXISTS ${meshlab_source}/src/vcglib/vcg)
+  set(meshlab_vcglib src/vcglib)
+endif()
+foreach(needed ML_VERSION src/common ${meshlab_vcglib}/vcg/complex/complex.h)
   if(NOT EXISTS ${meshlab_source}/${needed})
-    message(FATAL_ERROR "${meshlab_source} lacks ${needed}: it does not hold the sources of MeshLab 2020.09 with vcglib")
+    message(FATAL_ERROR "${meshlab_source} lacks ${needed}: it does not hold the sources of MeshLab with vcglib")
   endif()
 endforeach()
 file(STRINGS ${meshlab_source}/ML_VERSION meshlab_version LIMIT_COUNT 1)
@@ -38,6 +43,6 @@ find_path(GLEW_HEADER_DIR GL/glew.h REQUIRED)
 add_library(MeshLab::common SHARED IMPORTED)
 set_target_properties(MeshLab::common PROPERTIES
   IMPORTED_LOCATION ${MESHLAB_COMMON_LIBRARY}
-  INTERFACE_INCLUDE_DIRECTORIES "${meshlab_source}/src;${meshlab_source}/vcglib;${GLEW_HEADER_DIR}"
-  INTERFACE_COMPILE_DEFINITIONS "MESHLAB_SCALAR=float;SHBAKE_MESHLAB_API=${MESHLAB_API}"
+  INTERFACE_INCLUDE_DIRECTORIES "${meshlab_source}/src;${meshlab_source}/${meshlab_vcglib};${GLEW_HEADER_DIR}"
+  INTERFACE_COMPILE_DEFINITIONS "MESHLAB_SCALAR=float;MESHLAB_VERSION=${meshlab_version};SHBAKE_MESHLAB_API=${MESHLAB_API}"
   INTERFACE_LINK_LIBRARIES "Qt5::Core;Qt5::Gui;Qt5::Widgets;Qt5::OpenGL;Qt5::Xml;Eigen3::Eigen")

@@ -31,7 +31,7 @@ using SaveFileParameter = RichSaveFile;
 /// All layers of a document, in its order.
 inline std::vector<MeshModel*> layersOf(MeshDocument& document) {
   std::vector<MeshModel*> layers;
-#if SHBAKE_MESHLAB_API >= 202202
+#if SHBAKE_MESHLAB_API >= 202107
   for (MeshModel& layer : document.meshIterator()) layers.push_back(&layer);
 #else
   for (MeshModel* layer : document.meshList) layers.push_back(layer);

@@ -103,11 +103,17 @@ void FilterShbake::exportMaskCapability(const QString&, int& capability, int& de
   capability = defaults = kFormatMask;
 }
 
+#if SHBAKE_MESHLAB_API >= 202107
 RichParameterList FilterShbake::initSaveParameter(const QString&, const MeshModel&) const {
   RichParameterList parameters;
   declareFormat(parameters);
   return parameters;
 }
+#else
+void FilterShbake::initSaveParameter(const QString&, const MeshModel&, RichParameterList& parameters) {
+  declareFormat(parameters);
+}
+#endif
 
 void FilterShbake::open(const QString&, const QString& path, MeshModel& layer, int& mask, const RichParameterList&,
                         vcg::CallBackPos* callback) {

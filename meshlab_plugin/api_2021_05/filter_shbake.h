@@ -31,7 +31,11 @@ class FilterShbake : public QObject, public FilterPlugin, public IOPlugin {
   std::list<FileFormat> importFormats() const override;
   std::list<FileFormat> exportFormats() const override;
   void exportMaskCapability(const QString& format, int& capability, int& defaults) const override;
+#if SHBAKE_MESHLAB_API >= 202107
   RichParameterList initSaveParameter(const QString& format, const MeshModel& layer) const override;
+#else
+  void initSaveParameter(const QString& format, const MeshModel& layer, RichParameterList& parameters) override;
+#endif
   void open(const QString& format, const QString& path, MeshModel& layer, int& mask,
             const RichParameterList& parameters, vcg::CallBackPos* callback) override;
   void save(const QString& format, const QString& path, MeshModel& layer, int mask, const RichParameterList& parameters,
