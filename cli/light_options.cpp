@@ -1,17 +1,12 @@
 // Options about light that several verbs have.
 #include "cli/light_options.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "cli/light_text.h"
 #include "cli/parse.h"
 
 namespace shbake::cli {
-
-void addRepeated(CLI::App& app, const OptionText& text, std::vector<std::string>& values) {
-  app.add_option(text.names, values, text.help)->type_name(text.value)->allow_extra_args(false);
-}
 
 Vec3d parseColor(const std::string& name, const std::string& text) {
   const Vec3d color = colorFrom(parseNumbers(name, text, 1, 3, "GREY or R,G,B"), 0, name);

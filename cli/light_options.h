@@ -9,9 +9,6 @@
 
 namespace shbake::cli {
 
-/// Adds an option that may be given several times, each time with one value.
-void addRepeated(CLI::App& app, const OptionText& text, std::vector<std::string>& values);
-
 /// Adds --sun, --zenith and --ground, which all CIE skies have.
 void addSkyOptions(CLI::App& app, SkyOptions& sky);
 

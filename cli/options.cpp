@@ -26,6 +26,14 @@ CLI::Option* addText(CLI::App& app, const OptionText& text, std::string& value) 
   return addOption(app, text, "", [&value](const std::string&, const std::string& given) { value = given; });
 }
 
+void addList(CLI::App& app, const OptionText& text, std::vector<std::string>& values) {
+  app.add_option(text.names, values, text.help)->type_name(text.value);
+}
+
+void addRepeated(CLI::App& app, const OptionText& text, std::vector<std::string>& values) {
+  app.add_option(text.names, values, text.help)->type_name(text.value)->allow_extra_args(false);
+}
+
 template <class T>
 CLI::Option* addWhole(CLI::App& app, const OptionText& text, T& value, std::int64_t least, std::int64_t most) {
   return addOption(app, text, std::to_string(value), [&value, least, most](const std::string& n, const std::string& v) {
@@ -44,6 +52,14 @@ CLI::Option* addReal(CLI::App& app, const OptionText& text, double& value, doubl
 
 CLI::Option* addSwitch(CLI::App& app, const std::string& names, bool& value, const std::string& help) {
   return app.add_flag(names, value, help)->default_str("off");
+}
+
+void letValueBeLeftOut(CLI::Option& option) {
+  option.expected(0, 1);
+}
+
+bool isGiven(const CLI::Option* option) {
+  return option->count() > 0;
 }
 
 void failChoice(const std::string& option, const std::string& text, const std::vector<std::string>& names) {

@@ -1,4 +1,5 @@
-// Options of a verb: each is declared once, with its range and default, which its help then tells.
+// Options of a verb: each is declared once, with its range and default, which its help then tells. Verbs see CLI11 only
+// through these functions, since its header takes longer to compile than a verb.
 #pragma once
 
 #include <cstdint>
@@ -33,6 +34,12 @@ void addFile(CLI::App& app, const std::string& name, std::string& value, const s
 /// Adds an option that takes any text, such as a file name; help tells no default.
 CLI::Option* addText(CLI::App& app, const OptionText& text, std::string& value);
 
+/// Adds an option, or a positional argument without a leading dash, that takes all values that follow.
+void addList(CLI::App& app, const OptionText& text, std::vector<std::string>& values);
+
+/// Adds an option that may be given several times, each time with one value.
+void addRepeated(CLI::App& app, const OptionText& text, std::vector<std::string>& values);
+
 /// Adds a whole number in least..most; its value now is the default that help tells.
 template <class T>
 CLI::Option* addWhole(CLI::App& app, const OptionText& text, T& value, std::int64_t least, std::int64_t most);
@@ -47,6 +54,12 @@ CLI::Option* addSwitch(CLI::App& app, const std::string& names, bool& value, con
 template <class T>
 CLI::Option* addChoice(CLI::App& app, const OptionText& text, T& value,
                        const std::vector<std::pair<std::string, T>>& choices);
+
+/// Lets an option be given without its value, of which the text is then empty.
+void letValueBeLeftOut(CLI::Option& option);
+
+/// Whether an option stood on the command line.
+bool isGiven(const CLI::Option* option);
 
 /// Throws a usage error that lists the `names` a choice has, and the nearest one.
 [[noreturn]] void failChoice(const std::string& option, const std::string& text, const std::vector<std::string>& names);

@@ -1,7 +1,6 @@
 // The option that asks for the surface error, and how it is told.
 #include "cli/surface_option.h"
 
-#include <CLI/CLI.hpp>
 #include <vector>
 
 #include "cli/format.h"
@@ -13,23 +12,22 @@ namespace shbake::cli {
 void addSurfaceSamples(CLI::App& app, const std::string& name, const std::string& help, const std::string& example,
                        std::size_t& samples) {
   const std::string count = std::to_string(SurfaceErrorOptions().samples);
-  addOption(app,
-            {name, "[SAMPLES]", help + "; 16..1048576 samples, " + count + " where no number is given (default: off)"},
-            "",
-            [&samples, example](const std::string& option, const std::string& text) {
-              if (text.empty()) {
-                samples = SurfaceErrorOptions().samples;
-                return;
-              }
-              // Not a number: most likely a file that follows the option.
-              if (text.find_first_not_of("+-0123456789.") != text.npos) {
-                throw usageError(option + ": '" + text + "' is not a number of samples",
-                                 "name the file before the option: " + example);
-              }
-              samples = static_cast<std::size_t>(
-                  parseWhole(option, text, SurfaceErrorOptions::kLeastSamples, SurfaceErrorOptions::kMostSamples));
-            })
-      ->expected(0, 1);
+  CLI::Option* const added = addOption(
+      app, {name, "[SAMPLES]", help + "; 16..1048576 samples, " + count + " where no number is given (default: off)"},
+      "", [&samples, example](const std::string& option, const std::string& text) {
+        if (text.empty()) {
+          samples = SurfaceErrorOptions().samples;
+          return;
+        }
+        // Not a number: most likely a file that follows the option.
+        if (text.find_first_not_of("+-0123456789.") != text.npos) {
+          throw usageError(option + ": '" + text + "' is not a number of samples",
+                           "name the file before the option: " + example);
+        }
+        samples = static_cast<std::size_t>(
+            parseWhole(option, text, SurfaceErrorOptions::kLeastSamples, SurfaceErrorOptions::kMostSamples));
+      });
+  letValueBeLeftOut(*added);
 }
 
 void describeSurface(const SurfaceError& surface, Report& report) {

@@ -1,7 +1,6 @@
 // The light that relights a mesh or is drawn: skies by name, light files, images of environment maps.
 #include "cli/view_light.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <numbers>
 

@@ -1,6 +1,6 @@
 // `shbake bake`: a mesh in, the mesh with its light transfer out.
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "cli/describe_transfer.h"
@@ -123,8 +123,8 @@ void Bake::declareSurface(CLI::App& app) {
        "auto: fitted or smoothed where samples show that it helps"},
       options_.fit.kind, {{"auto", FitKind::automatic}, {"vertex", FitKind::vertex}, {"surface", FitKind::surface}});
   addSwitch(app, "--two-sided", options_.bake.twoSided, "faces reflect from both sides (they block from both anyway)");
-  app.add_option("--blockers", blockers_, "meshes that cast shadows and reflect but are not baked themselves")
-      ->type_name("FILE...");
+  addList(app, {"--blockers", "FILE...", "meshes that cast shadows and reflect but are not baked themselves"},
+          blockers_);
   AlbedoOptions& albedo = options_.albedo;
   addOption(app,
             {"--albedo", "A",
@@ -186,13 +186,13 @@ void Bake::warnOfIdleOptions(Session& session) const {
   const TransferKind kind = options_.bake.kind;
   const std::string with = std::string(" has no effect with --transfer ") + transferName(kind);
   if (kind == TransferKind::unshadowed) {
-    if (fit_->count() > 0) session.warn("--fit" + with);
-    if (rays_->count() > 0) session.warn("--rays" + with);
-    if (seed_->count() > 0) session.warn("--seed" + with);
+    if (isGiven(fit_)) session.warn("--fit" + with);
+    if (isGiven(rays_)) session.warn("--rays" + with);
+    if (isGiven(seed_)) session.warn("--seed" + with);
     if (!blockers_.empty()) session.warn("--blockers" + with);
   }
-  if (kind != TransferKind::interreflected && bounces_->count() > 0) session.warn("--bounces" + with);
-  if (options_.points.normals == NormalSource::flat && crease_->count() > 0) {
+  if (kind != TransferKind::interreflected && isGiven(bounces_)) session.warn("--bounces" + with);
+  if (options_.points.normals == NormalSource::flat && isGiven(crease_)) {
     session.warn("--crease has no effect with --normals flat");
   }
 }
@@ -201,14 +201,14 @@ void Bake::warnOfIdleOptions(Session& session) const {
 AutoBakeOptions Bake::automatic(Session& session) {
   AutoBakeOptions choose;
   choose.refinement = refinement_;
-  if (tolerance_->count() > 0) {
+  if (isGiven(tolerance_)) {
     choose.tolerance = surfaceTolerance_;
-    choose.transfer = transfer_->count() == 0;
-    if (refine_->count() == 0) choose.refinement.kind = RefinementOptions::Kind::automatic;
-    if (fit_->count() == 0) options_.fit.kind = FitKind::automatic;
+    choose.transfer = !isGiven(transfer_);
+    if (!isGiven(refine_)) choose.refinement.kind = RefinementOptions::Kind::automatic;
+    if (!isGiven(fit_)) options_.fit.kind = FitKind::automatic;
   }
   if (light_.empty()) return choose;
-  if (order_->count() > 0) {
+  if (isGiven(order_)) {
     session.warn("--light has no effect with --order");
     return choose;
   }

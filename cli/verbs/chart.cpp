@@ -1,5 +1,4 @@
 // `shbake chart`: speed against accuracy on the user's own mesh, as a picture.
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "chart/draw/chart_file.h"

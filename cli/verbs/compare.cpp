@@ -1,5 +1,4 @@
 // `shbake compare`: how far one baked file is from another.
-#include <CLI/CLI.hpp>
 
 #include "cli/format.h"
 #include "cli/options.h"

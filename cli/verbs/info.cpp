@@ -1,5 +1,4 @@
 // `shbake info`: what is in a mesh file, and in one that shbake has baked.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,4 @@
 // `shbake light`: probes, skies and simple lights in, a light file out.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 
@@ -79,10 +78,10 @@ class MakeLight : public Verb {
 };
 
 void MakeLight::declare(CLI::App& app) {
-  app.add_option(
-         "FILE", inputs_,
-         "environment maps (HDR, EXR and other images) and light files to sum; FILE@W or FILE@R,G,B weights one")
-      ->type_name("");
+  addList(app,
+          {"FILE", "",
+           "environment maps (HDR, EXR and other images) and light files to sum; FILE@W or FILE@R,G,B weights one"},
+          inputs_);
   addText(app, {"-o,--output", "FILE", "the light file (.shlight) to write; required"}, output_);
   addWhole(app, {"--order", "N", "bands of spherical harmonics, 1..64: N x N coefficients a channel"}, order_, 1, 64);
   declareSources(app);

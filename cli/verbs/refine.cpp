@@ -1,5 +1,4 @@
 // `shbake refine`: a mesh in, the mesh with more vertices in its flat regions out.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <filesystem>

@@ -1,5 +1,4 @@
 // `shbake relight`: the colours that a baked mesh has under a light.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <filesystem>

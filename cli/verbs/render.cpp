@@ -1,6 +1,6 @@
 // `shbake render`: pictures of baked meshes under a light, and of lights.
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -62,9 +62,10 @@ class Render : public Verb {
 };
 
 void Render::declare(CLI::App& app) {
-  app.add_option("FILE", files_,
-                 "baked PLY files, drawn side by side; or one .shlight file or image; without any --light is drawn")
-      ->type_name("");
+  addList(
+      app,
+      {"FILE", "", "baked PLY files, drawn side by side; or one .shlight file or image; without any --light is drawn"},
+      files_);
   addText(app, {"-o,--output", "FILE", "the picture to write, .png (sRGB) or .exr (radiance); required"}, output_);
   light_.declare(app);
   declareCamera(app);

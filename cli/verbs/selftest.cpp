@@ -1,5 +1,4 @@
 // `shbake selftest`: where methods fail, and how often they do here.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "cli/format.h"

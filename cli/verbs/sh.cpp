@@ -1,5 +1,4 @@
 // `shbake sh`: a calculator for spherical-harmonic coefficients.
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
