@@ -11,17 +11,6 @@
 #endif
 
 namespace shbake::meshlab {
-namespace {
-
-/// Hands back to the system what the work has freed. glibc keeps it in the heap of the thread that ended, and takes
-/// another heap for the next one: MeshLab, which stays open for hours, would grow from bake to bake.
-void returnFreedMemory() {
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
-}
-
-}  // namespace
 
 void runInBackground(const std::function<void(Progress&)>& work, const ProgressCallback& poll) {
   std::mutex mutex;
@@ -51,9 +40,14 @@ void runInBackground(const std::function<void(Progress&)>& work, const ProgressC
     go = wanted;
   }
   done.wait();
-  returnFreedMemory();
   if (failure) std::rethrow_exception(failure);
   done.get();
+}
+
+void returnFreedMemory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 }  // namespace shbake::meshlab

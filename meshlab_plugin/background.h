@@ -12,4 +12,8 @@ namespace shbake::meshlab {
 /// what `poll` throws, once the work has ended.
 void runInBackground(const std::function<void(Progress&)>& work, const ProgressCallback& poll);
 
+/// Hands back to the system what has been freed. glibc would keep all of it for later; the end of each thread's heap it
+/// keeps all the same, up to 64 MB, and uses it again.
+void returnFreedMemory();
+
 }  // namespace shbake::meshlab

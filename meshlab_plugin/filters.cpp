@@ -26,14 +26,18 @@ MeshModel& currentLayer(MeshDocument& document) {
   return *layer;
 }
 
-/// Marks a filter as running for as long as it lives.
+/// Marks a filter as running for as long as it lives, which is longer than what the filter reads and makes: that memory
+/// is handed back, since MeshLab stays open for hours.
 class RunGuard {
  public:
   explicit RunGuard(bool& running) : running_(running) {
     if (running) throw usageError("shbake is still at work", "wait for its last filter to end, or cancel it");
     running = true;
   }
-  ~RunGuard() { running_ = false; }
+  ~RunGuard() {
+    returnFreedMemory();
+    running_ = false;
+  }
   RunGuard(const RunGuard&) = delete;
   RunGuard& operator=(const RunGuard&) = delete;
 
