@@ -57,8 +57,8 @@ std::vector<std::string> describeFindings(const MeshCheck& check) {
   lines.add(check.nonManifoldEdges, "edge of three or more faces", "edges of three or more faces",
             "which faces continue each other there is not defined", "vertices");
   lines.add(check.nonManifoldVertices, "vertex where separate fans of faces touch",
-            "vertices where separate fans of faces touch",
-            "they share their light there where their normals agree", "vertices");
+            "vertices where separate fans of faces touch", "they share their light there where their normals agree",
+            "vertices");
   lines.add(check.duplicateFaces, "face that repeats an earlier one", "faces that repeat earlier ones",
             "time is lost, and smooth normals count them twice", "faces");
   lines.add(check.degenerateFaces, "face without area", "faces without area",

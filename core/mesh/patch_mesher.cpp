@@ -25,6 +25,8 @@ using Delaunay =
 using VertexHandle = Delaunay::Vertex_handle;
 using FaceHandle = Delaunay::Face_handle;
 
+using Pair = std::array<std::uint32_t, 2>;
+
 constexpr std::uint32_t kNone = PatchLocator::kNone;
 constexpr std::uint32_t kInside = 0;
 // Points inserted between two counts: some milliseconds.
@@ -96,7 +98,7 @@ class Triangulation {
 };
 
 /// Marks what the border encloses; false where that reaches the outside.
-bool markInside(Triangulation& all, std::span<const std::array<std::uint32_t, 2>> border) {
+bool markInside(Triangulation& all, std::span<const Pair> border) {
   all.unmark();
   std::vector<FaceHandle> front;
   const auto take = [&](FaceHandle face) {
@@ -114,6 +116,26 @@ bool markInside(Triangulation& all, std::span<const std::array<std::uint32_t, 2>
     }
   }
   return true;
+}
+
+/// The faces that are marked. Nothing where they have not `sides` sides that are for good - were there more, the inside
+/// would reach over one of them - or do not take all points.
+std::optional<std::vector<Triangle>> insideFaces(const Triangulation& all, std::size_t sides) {
+  std::vector<Triangle> faces;
+  std::size_t constrained = 0;
+  std::vector<bool> used(all.vertices.size());
+  for (const FaceHandle face : all.delaunay.finite_face_handles()) {
+    if (face->info() != kInside) continue;
+    Triangle t{};
+    for (int k = 0; k < 3; ++k) {
+      t[static_cast<std::size_t>(k)] = face->vertex(k)->info();
+      constrained += face->is_constrained(k);
+      used[face->vertex(k)->info()] = true;
+    }
+    faces.push_back(t);
+  }
+  if (constrained != sides || std::find(used.begin(), used.end(), false) != used.end()) return std::nullopt;
+  return faces;
 }
 
 }  // namespace
@@ -170,13 +192,12 @@ std::uint32_t PatchLocator::find(Point2 place) {
   return around->info();
 }
 
-std::optional<std::vector<Triangle>> triangulatePatch(std::span<const Point2> points,
-                                                      std::span<const std::array<std::uint32_t, 2>> border,
-                                                      const PointCounter& count) {
+std::optional<std::vector<Triangle>> triangulatePatch(std::span<const Point2> points, std::span<const Pair> border,
+                                                      std::span<const Pair> wishes, const PointCounter& count) {
   Triangulation all(count);
   if (!all.insert(points)) return std::nullopt;
-  std::vector<std::array<std::uint32_t, 2>> pieces(border.begin(), border.end());
-  const auto lesserFirst = [&](const std::array<std::uint32_t, 2>& piece) {
+  std::vector<Pair> pieces(border.begin(), border.end());
+  const auto lesserFirst = [&](const Pair& piece) {
     const Kernel::Point_2 &a = all.vertices[piece[0]]->point(), &b = all.vertices[piece[1]]->point();
     return a < b ? std::pair(a, b) : std::pair(b, a);
   };
@@ -185,27 +206,17 @@ std::optional<std::vector<Triangle>> triangulatePatch(std::span<const Point2> po
   for (const auto& [a, b] : pieces) {
     if (!all.constrain(a, b)) return std::nullopt;
   }
+  for (const auto& [a, b] : wishes) {
+    if (!all.constrain(a, b)) continue;
+    pieces.push_back({a, b});
+    pieces.push_back({b, a});
+  }
   // A constraint made later may have been cut by none, but an edge that was there before may have become part of it.
-  for (const auto& [a, b] : border) {
+  for (const auto& [a, b] : pieces) {
     if (!all.delaunay.is_edge(all.vertices[a], all.vertices[b])) return std::nullopt;
   }
-  if (!markInside(all, border)) return std::nullopt;
-  std::vector<Triangle> faces;
-  std::size_t constrained = 0;
-  std::vector<bool> used(points.size());
-  for (const FaceHandle face : all.delaunay.finite_face_handles()) {
-    if (face->info() != kInside) continue;
-    Triangle t{};
-    for (int k = 0; k < 3; ++k) {
-      t[static_cast<std::size_t>(k)] = face->vertex(k)->info();
-      constrained += face->is_constrained(k);
-      used[face->vertex(k)->info()] = true;
-    }
-    faces.push_back(t);
-  }
-  // Each pair is a side of the face on its left; were there more such sides, the inside would reach over some pair.
-  if (constrained != border.size() || std::find(used.begin(), used.end(), false) != used.end()) return std::nullopt;
-  return faces;
+  if (!markInside(all, pieces)) return std::nullopt;
+  return insideFaces(all, pieces.size());
 }
 
 }  // namespace shbake

@@ -47,8 +47,11 @@ class PatchLocator {
 /// inside it. The faces are counter-clockwise triples of point numbers; each border pair is a side of exactly one face,
 /// and all other sides are shared by two. Nothing where there are no such faces: borders cross, or points coincide. The
 /// edges depend on where the points are, not on their order or which side of a border pair is inside.
+/// `wishes` are pairs of points inside that become sides where they cross no border and no earlier wish; nothing where
+/// one of them runs through another point.
 std::optional<std::vector<Triangle>> triangulatePatch(std::span<const Point2> points,
                                                       std::span<const std::array<std::uint32_t, 2>> border,
+                                                      std::span<const std::array<std::uint32_t, 2>> wishes,
                                                       const PointCounter& count);
 
 }  // namespace shbake

@@ -15,20 +15,11 @@ namespace {
 
 constexpr int kDeepest = 30;
 const double kRowHeight = std::sqrt(3.0) / 2;
-// The steepest that lengths are expected to change with distance (PatchLength of graded fields).
-constexpr double kSteepest = 0.5;
 // Of the side: from the centre to the corners; and what points keep away from obstacles, half of what lies between two
 // rows: a border between rows then has the next one at most one and a half rows away.
 constexpr double kCircumradius = 0.5773502691896258;
 constexpr double kClearance = 0.4330127018922193;
 constexpr std::size_t kCountedPoints = 1 << 10;
-
-double distanceTo(const PatchObstacle& o, Point2 p) {
-  const double ex = o.b.x - o.a.x, ey = o.b.y - o.a.y, px = p.x - o.a.x, py = p.y - o.a.y;
-  const double squared = ex * ex + ey * ey;
-  const double t = squared > 0 ? std::clamp((px * ex + py * ey) / squared, 0.0, 1.0) : 0;
-  return std::hypot(px - t * ex, py - t * ey);
-}
 
 /// Where a corner of the tree is, in units of the deepest triangles: (i, j) stands for i along x and j at 60 degrees.
 struct LatticePlace {
@@ -94,6 +85,7 @@ class Tree {
   bool isShort(const Node& node, Point2 centre, std::span<const std::uint32_t> near, bool& outside);
   void judgeCorners(const Node& node, std::span<const std::uint32_t> near);
 
+  static double clearanceOf(const PatchObstacle& o, double side) { return std::max(kClearance * side, o.clearance); }
   double sideAt(int depth) const { return std::ldexp(rootSide_, -depth); }
   Point2 placeOf(LatticePlace p, int depth) const {
     const double side = sideAt(depth), i = static_cast<double>(p.i), j = static_cast<double>(p.j);
@@ -140,9 +132,10 @@ void Tree::visit(const Node& node, std::span<const std::uint32_t> near) {
     const Point2 p = placeOf(corner, node.depth);
     centre = {centre.x + p.x / 3, centre.y + p.y / 3};
   }
-  const double reach = (kCircumradius + kClearance) * sideAt(node.depth);
+  const double side = sideAt(node.depth);
   std::vector<std::uint32_t> kept;
   for (const std::uint32_t o : near) {
+    const double reach = kCircumradius * side + clearanceOf(obstacles_[o], side);
     if (distanceTo(obstacles_[o], centre) <= reach) kept.push_back(o);
   }
   bool outside = false;
@@ -180,12 +173,20 @@ void Tree::judgeCorners(const Node& node, std::span<const std::uint32_t> near) {
     Corner& c = corners_[found->second];
     if (side >= c.side) continue;
     c.side = side;
-    c.free = std::none_of(near.begin(), near.end(),
-                          [&](std::uint32_t o) { return distanceTo(obstacles_[o], place) < kClearance * side; });
+    c.free = std::none_of(near.begin(), near.end(), [&](std::uint32_t o) {
+      return distanceTo(obstacles_[o], place) < clearanceOf(obstacles_[o], side);
+    });
   }
 }
 
 }  // namespace
+
+double distanceTo(const PatchObstacle& o, Point2 p) {
+  const double ex = o.b.x - o.a.x, ey = o.b.y - o.a.y, px = p.x - o.a.x, py = p.y - o.a.y;
+  const double squared = ex * ex + ey * ey;
+  const double t = squared > 0 ? std::clamp((px * ex + py * ey) / squared, 0.0, 1.0) : 0;
+  return std::hypot(px - t * ex, py - t * ey);
+}
 
 std::vector<PatchPoint> spreadPoints(PatchLocator& patch, std::span<const PatchObstacle> obstacles,
                                      const PatchLength& length, const PointCounter& count) {

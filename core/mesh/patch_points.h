@@ -14,11 +14,17 @@ namespace shbake {
 /// Edges are left as they are up to this multiple of the length wanted: halves of longer ones are nearer to it.
 inline constexpr double kLongestEdge = 1.4142135623730951;
 
-/// What new points keep away from: a piece of the border, or a point (a = b).
+/// The steepest that lengths are expected to change with distance.
+inline constexpr double kSteepest = 0.5;
+
+/// What new points keep away from: a piece of the border or of a row, or a point (a = b).
 struct PatchObstacle {
   Point2 a, b;
-  double length = 0;  ///< of edges wanted there
+  double length = 0;     ///< of edges wanted there
+  double clearance = 0;  ///< that new points keep at least, however short edges are wanted
 };
+
+double distanceTo(const PatchObstacle& obstacle, Point2 place);
 
 /// A new point of a patch, and the face of it that it lies in.
 struct PatchPoint {

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/passes.h"
+#include "mesh/contact_lines.h"
 #include "mesh/flat_edges.h"
 #include "mesh/flat_geometry.h"
 #include "mesh/flat_patches.h"
@@ -20,9 +21,14 @@
 #include "mesh/refine_budget.h"
 #include "mesh/refine_edges.h"
 #include "mesh/refine_patch.h"
+#include "mesh/work_frame.h"
 
 namespace shbake {
 namespace {
+
+// What rows keep from the lines they run along: this share of half the mesh's largest extent, too little to be seen,
+// and no less than so many units in the last place, which rays and contacts tell apart.
+constexpr double kRowOffset = 0x1p-12, kRowUlps = 1024;
 
 void checkIndices(const Mesh& mesh, Passes& passes) {
   passes.forEach(mesh.triangles.size(), [&](std::size_t f) {
@@ -58,6 +64,8 @@ class Refiner {
   RefinedMesh run() {
     findPatches();
     if (regions_.count > 0) {
+      contacts_ = findContactLines(mesh_, edges_, patches_, progress_);
+      placeRows();
       divisions_.emplace(mesh_, edges_, patches_, length_);
       std::vector<std::uint32_t> work = longPatches();
       progress_.begin("refining", 2 * budget_.expected(), "points");
@@ -73,6 +81,7 @@ class Refiner {
 
  private:
   void findPatches();
+  void placeRows();
   std::vector<std::uint32_t> longPatches();
   void divideEdges(const std::vector<std::uint32_t>& work);
   void meshPatches(const std::vector<std::uint32_t>& work);
@@ -96,6 +105,8 @@ class Refiner {
   EdgeTable edges_;
   FlatRegions regions_;
   FlatPatches patches_;
+  ContactLines contacts_;
+  double rowOffset_ = 0;
   std::optional<EdgeDivisions> divisions_;
   std::vector<std::optional<PatchMesh>> results_;                 // of each patch; with faces where it is refined
   std::vector<std::uint32_t> left_;                               // faces that could not be refined
@@ -111,6 +122,14 @@ void Refiner::findPatches() {
   passes.end();
   regions_ = findFlatRegions(mesh_, edges_, {options_.flatDegrees, options_.creaseDegrees}, progress_);
   if (regions_.count > 0) patches_ = findFlatPatches(mesh_, edges_, regions_, progress_);
+}
+
+void Refiner::placeRows() {
+  Passes passes(progress_, "measuring", mesh_.triangles.size(), "faces", 1);
+  const WorkFrame frame = workFrameOf(mesh_, passes);
+  const double most = magnitudeOf(frame.centre) + 1 / frame.scale;
+  rowOffset_ = std::max(kRowOffset / frame.scale, kRowUlps * coordinateUlp(mesh_, most));
+  passes.end();
 }
 
 /// The patches with an edge that is too long, in ascending order.
@@ -166,6 +185,8 @@ void Refiner::meshPatches(const std::vector<std::uint32_t>& work) {
                            .attributes = attributes_,
                            .divisions = *divisions_,
                            .length = length_,
+                           .contacts = contacts_,
+                           .rowOffset = rowOffset_,
                            .countNew =
                                [this](std::size_t points) {
                                  budget_.count(points);

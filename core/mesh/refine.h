@@ -46,13 +46,14 @@ struct RefinedMesh {
 };
 
 /// Divides the flat regions of a mesh (findFlatRegions() says which they are) into triangles with sides of about
-/// `length`. All else stays: shape, curved parts vertex for vertex and face for face, edges between faces that do not
-/// lie in one plane to rounding or across which attributes do not go on, and every vertex of the input in its place;
-/// new vertices come behind them, new faces in place of the ones they are part of. An edge between two flat regions is
-/// divided alike for both; one with a face that is in none is not divided. New vertices lie on the faces of the input
-/// to 4 units in the last place, and carry what these have there. The result does not depend on the number of threads.
-/// Throws an Error for indices or positions that are not valid and for more than `maxVertices` vertices, usage errors
-/// for angles out of range or lengths that are not positive.
+/// `length`; along lines where other faces meet a region (contact_lines.h), two rows of vertices keep apart what lies
+/// on either side. All else stays: shape, curved parts vertex for vertex and face for face, edges between faces that do
+/// not lie in one plane to rounding or across which attributes do not go on, and every vertex of the input in its
+/// place; new vertices come behind them, new faces in place of the ones they are part of. An edge between two flat
+/// regions is divided alike for both; one with a face that is in none is not divided. New vertices lie on the faces of
+/// the input to 4 units in the last place, and carry what these have there. The result does not depend on the number of
+/// threads. Throws an Error for indices or positions that are not valid and for more than `maxVertices` vertices, usage
+/// errors for angles out of range or lengths that are not positive.
 RefinedMesh refineFlatRegions(const Mesh& mesh, const RefineOptions& options, const EdgeLength& length,
                               const Parallel& parallel, Progress& progress);
 

@@ -8,6 +8,7 @@
 
 #include "mesh/flat_geometry.h"
 #include "mesh/patch_points.h"
+#include "mesh/patch_rows.h"
 
 namespace shbake {
 namespace {
@@ -23,7 +24,8 @@ struct PatchFrame {
 
 class PatchWork {
  public:
-  PatchWork(const PatchSource& source, std::uint32_t patch) : s_(source), faces_(source.patches[patch]) {}
+  PatchWork(const PatchSource& source, std::uint32_t patch)
+      : s_(source), faces_(source.patches[patch]), contacts_(source.contacts[patch]) {}
 
   std::optional<PatchMesh> run() {
     numberVertices();
@@ -35,7 +37,8 @@ class PatchWork {
     addEdgePoints();
     addInnerPoints(locator);
     if (out_.edgePoints.empty() && out_.innerPositions.empty()) return std::move(out_);
-    std::optional<std::vector<Triangle>> faces = triangulatePatch(places_, pieces_, s_.countDone);
+    std::optional<std::vector<Triangle>> faces = triangulatePatch(places_, pieces_, rows_, s_.countDone);
+    if (!faces && !rows_.empty()) faces = triangulatePatch(places_, pieces_, {}, s_.countDone);
     if (!faces) return std::nullopt;
     out_.faces = std::move(*faces);
     for (Triangle& t : out_.faces) {
@@ -52,6 +55,8 @@ class PatchWork {
   void divideBorder();
   void addEdgePoints();
   void addInnerPoints(PatchLocator& locator);
+  void addInnerPoint(const PatchPoint& point);
+  std::vector<PatchLine> linesOnPlane() const;
   std::vector<PatchObstacle> obstacles() const;
   std::uint32_t sourceOf(const Triangle& t, PatchLocator& locator) const;
 
@@ -63,6 +68,7 @@ class PatchWork {
 
   const PatchSource& s_;
   std::span<const std::uint32_t> faces_;
+  std::span<const Polyline> contacts_;
   PatchMesh out_;
   PatchFrame frame_;
   std::unordered_map<std::uint32_t, std::uint32_t> numbers_;  // of vertices of the mesh
@@ -71,8 +77,9 @@ class PatchWork {
   std::vector<FaceSide> border_;
   std::vector<std::array<std::uint32_t, 2>> pieces_;  // of the border, as divided
   std::vector<std::uint32_t> pieceFace_;
-  std::vector<Point2> places_;              // of all points
-  std::vector<std::uint32_t> faceAtPoint_;  // a face of the mesh that each point lies on
+  std::vector<std::array<std::uint32_t, 2>> rows_;  // pairs of points along contact lines
+  std::vector<Point2> places_;                      // of all points
+  std::vector<std::uint32_t> faceAtPoint_;          // a face of the mesh that each point lies on
 };
 
 void PatchWork::numberVertices() {
@@ -182,22 +189,43 @@ std::vector<PatchObstacle> PatchWork::obstacles() const {
 }
 
 void PatchWork::addInnerPoints(PatchLocator& locator) {
-  const auto wanted = [this](std::uint32_t local, Point2 p) { return lengthAt(faces_[local], frame_.lift(p, 0)); };
-  for (const PatchPoint& point : spreadPoints(locator, obstacles(), wanted, s_.countNew)) {
-    const std::uint32_t f = faces_[point.face];
-    const FaceShape shape(s_.mesh, f);
-    Blend blend = blendAt(shape.corners, frame_.lift(point.place, 0));
-    const auto& c = shape.corners;
-    const double height = blend.apply(frame_.heightOf(c[0]), frame_.heightOf(c[1]), frame_.heightOf(c[2]));
-    const Vec3d position = storedPosition(s_.mesh, frame_.lift(point.place, height));
-    blend.a = vertexAt(3 * f);
-    blend.b = vertexAt(3 * f + 1);
-    blend.c = vertexAt(3 * f + 2);
-    out_.innerBlends.push_back(blend);
-    out_.innerPositions.push_back(position);
-    places_.push_back(frame_.project(position));
-    faceAtPoint_.push_back(f);
+  const PatchLength wanted = [this](std::uint32_t local, Point2 p) {
+    return lengthAt(faces_[local], frame_.lift(p, 0));
+  };
+  std::vector<PatchObstacle> keptClear = obstacles();
+  const PatchRows rows = rowsBeside(locator, linesOnPlane(), s_.rowOffset, keptClear, wanted);
+  keptClear.insert(keptClear.end(), rows.pieces.begin(), rows.pieces.end());
+  s_.countNew(rows.points.size());
+  const auto first = static_cast<std::uint32_t>(places_.size());
+  for (const auto& [from, to] : rows.joints) rows_.push_back({first + from, first + to});
+  for (const PatchPoint& point : rows.points) addInnerPoint(point);
+  for (const PatchPoint& point : spreadPoints(locator, keptClear, wanted, s_.countNew)) addInnerPoint(point);
+}
+
+std::vector<PatchLine> PatchWork::linesOnPlane() const {
+  std::vector<PatchLine> lines;
+  for (const Polyline& contact : contacts_) {
+    PatchLine& line = lines.emplace_back();
+    line.closed = contact.closed;
+    for (const Vec3d& place : contact.places) line.places.push_back(frame_.project(place));
   }
+  return lines;
+}
+
+void PatchWork::addInnerPoint(const PatchPoint& point) {
+  const std::uint32_t f = faces_[point.face];
+  const FaceShape shape(s_.mesh, f);
+  Blend blend = blendAt(shape.corners, frame_.lift(point.place, 0));
+  const auto& c = shape.corners;
+  const double height = blend.apply(frame_.heightOf(c[0]), frame_.heightOf(c[1]), frame_.heightOf(c[2]));
+  const Vec3d position = storedPosition(s_.mesh, frame_.lift(point.place, height));
+  blend.a = vertexAt(3 * f);
+  blend.b = vertexAt(3 * f + 1);
+  blend.c = vertexAt(3 * f + 2);
+  out_.innerBlends.push_back(blend);
+  out_.innerPositions.push_back(position);
+  places_.push_back(frame_.project(position));
+  faceAtPoint_.push_back(f);
 }
 
 /// The face that a new one's centroid lies in. Along a border that rounding has moved it may be beside all faces.

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/contact_lines.h"
 #include "mesh/flat_edges.h"
 #include "mesh/flat_patches.h"
 #include "mesh/mesh.h"
@@ -43,6 +44,8 @@ struct PatchSource {
   const AttributeContinuity& attributes;
   const EdgeDivisions& divisions;
   const EdgeLength& length;
+  const ContactLines& contacts;
+  double rowOffset;        ///< what rows of points at these keep from them, in file units
   PointCounter countNew;   ///< told of new inner points
   PointCounter countDone;  ///< told of points that have been gone through
 };

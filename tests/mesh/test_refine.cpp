@@ -234,6 +234,42 @@ TEST_CASE("a wall on the middle of a floor: three sheets on an edge are divided 
   checkKept(shapes::threeFacesOnEdge(), refinedTo(shapes::threeFacesOnEdge(), 0.05));
 }
 
+TEST_CASE("no face of the ground reaches from under a box to beside it", "[refine]") {
+  for (const double sunk : {0.0, 0.2}) {
+    for (const double length : {0.4, 0.2, 0.1, 0.03}) {
+      INFO("sunk " << sunk << ", length " << length);
+      // Vertices of the ground under the box and around it, of which some are near its foot.
+      const Mesh ground = shapes::grid({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, 9, 9);
+      const Mesh mesh = inFloats(shapes::merged(ground, shapes::box({-0.51, -0.3, -sunk}, {0.6, 0.44, 1})));
+      const RefinedMesh refined = refinedTo(mesh, length);
+      checkKept(mesh, refined);
+      CHECK(refined.report.left.empty());
+      std::size_t across = 0;
+      for (std::size_t f = 0; f < refined.mesh.triangles.size(); ++f) {
+        if (refined.sourceFace[f] >= ground.triangles.size()) continue;
+        bool under = false, beside = false;
+        for (const std::uint32_t v : refined.mesh.triangles[f]) {
+          const Vec3d& p = refined.mesh.positions[v];
+          const double out = std::max({-0.51 - p.x, p.x - 0.6, -0.3 - p.y, p.y - 0.44});
+          under |= out < -0.001;
+          beside |= out > 0.001;
+        }
+        across += under && beside;
+      }
+      CHECK(across == 0);
+    }
+  }
+}
+
+TEST_CASE("rows along lines that cross are refined all the same", "[refine]") {
+  const Mesh ground = shapes::grid({-2, -2, 0}, {4, 0, 0}, {0, 4, 0});
+  const Mesh mesh = shapes::merged(shapes::merged(ground, shapes::box({-1, -0.1, -0.5}, {1, 0.1, 1})),
+                                   shapes::box({-0.2, -1, -0.5}, {0.1, 1, 1}));
+  const RefinedMesh refined = refinedTo(mesh, 0.2);
+  checkKept(mesh, refined);
+  CHECK(refined.report.left.empty());
+}
+
 TEST_CASE("defects of meshes survive", "[refine]") {
   for (const Mesh& mesh : shapes::defects()) {
     for (const double length : {0.05, 0.4}) {

@@ -91,9 +91,9 @@ TEST_CASE("what a fit gains is not paid for with vertices and rays", "[auto_bake
   BakeMeshOptions options;
   options.bake.kind = TransferKind::shadowed;
   options.bake.order = 3;
-  const AutoBake plain = bake(boxOnFloor(), toTolerance(0.05), options);
+  const AutoBake plain = bake(boxOnFloor(), toTolerance(0.02), options);
   options.fit.kind = FitKind::automatic;
-  const AutoBake fitted = bake(boxOnFloor(), toTolerance(0.05), options);
+  const AutoBake fitted = bake(boxOnFloor(), toTolerance(0.02), options);
   const auto cost = [](const AutoBake& b) { return double(b.baked.transfer.size()) * b.baked.facts.rays; };
   REQUIRE(plain.met);
   REQUIRE(fitted.met);
@@ -200,11 +200,11 @@ TEST_CASE("where a tolerance cannot be met a warning says why", "[auto_bake]") {
   CHECK_THAT(curved.baked.warnings.back(),
              Catch::Contains("above the tolerance of 5.0 %") && Catch::Contains("curved"));
 
-  AutoBakeOptions few = toTolerance(0.03);
-  few.refinement.maxVertices = 200;
+  AutoBakeOptions few = toTolerance(0.02);
+  few.refinement.maxVertices = 100;
   const AutoBake budget = bake(boxOnFloor(), few, options);
   CHECK_FALSE(budget.met);
-  CHECK_THAT(budget.baked.warnings.back(), Catch::Contains("no more than 200 vertices"));
+  CHECK_THAT(budget.baked.warnings.back(), Catch::Contains("no more than 100 vertices"));
 
   AutoBakeOptions fixed = toTolerance(0.05);
   fixed.refinement.kind = RefinementOptions::Kind::none;

@@ -66,7 +66,7 @@ TEST_CASE("the error of interpolation comes down to the target", "[auto_refine]"
 
 TEST_CASE("vertices gather where the light changes", "[auto_refine]") {
   const Mesh mesh = boxOnFloor();
-  const AutoRefinement refined = refine(mesh, 0.04);
+  const AutoRefinement refined = refine(mesh, 0.01);
   std::size_t near = 0, far = 0;
   for (const Vec3d& p : refined.refined.mesh.positions) {
     if (p.z != 0) continue;
@@ -79,6 +79,36 @@ TEST_CASE("vertices gather where the light changes", "[auto_refine]") {
   // What the finest edges would take everywhere.
   const double even = 256 / (std::sqrt(3.0) / 2 * refined.shortest * refined.shortest);
   CHECK(double(refined.refined.mesh.positions.size()) < even / 4);
+}
+
+TEST_CASE("the foot of a box darkens nothing beside it", "[auto_refine]") {
+  const Mesh mesh = refine(boxOnFloor(), 0.1).refined.mesh;
+  BakeMeshOptions options;
+  options.bake = shadowed(1);
+  options.bake.rays = 1024;
+  const Parallel parallel(1);
+  Progress progress;
+  const BakedMesh baked = bakeMesh(mesh, {}, options, parallel, progress);
+  const auto sky = [&](std::uint32_t v) {
+    return double(baked.transfer.coefficients[v]) / baked.transfer.coefficients[0];  // a corner of the floor sees all
+  };
+  // Beside a box, the floor sees more than half the sky; under it, nothing.
+  double least = 1;
+  std::size_t found = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double t = -1 + 2 * (i % 100 + 0.5) / 100, out = 1.01;
+    const Vec3d place = std::array{Vec3d(t, out, 0), Vec3d(t, -out, 0), Vec3d(out, t, 0), Vec3d(-out, t, 0)}[i / 100];
+    for (const Triangle& face : mesh.triangles) {
+      const Vec3d a = mesh.positions[face[0]], b = mesh.positions[face[1]], c = mesh.positions[face[2]];
+      const double area = cross(b - a, c - a).z;
+      const double u = cross(c - b, place - b).z / area, v = cross(a - c, place - c).z / area;
+      if (a.z + b.z + c.z != 0 || area <= 0 || u < 0 || v < 0 || u + v > 1) continue;
+      least = std::min(least, u * sky(face[0]) + v * sky(face[1]) + (1 - u - v) * sky(face[2]));
+      ++found;
+    }
+  }
+  CHECK(found >= 400);
+  CHECK(least > 0.5 - 3 * baked.facts.maxError);
 }
 
 TEST_CASE("an evenly lit surface gets no vertices", "[auto_refine]") {
@@ -126,9 +156,9 @@ TEST_CASE("what curved parts miss is told apart", "[auto_refine]") {
 }
 
 TEST_CASE("a budget of vertices is kept", "[auto_refine]") {
-  const AutoRefinement refined = refine(boxOnFloor(), 0.005, shadowed(), 500);
+  const AutoRefinement refined = refine(boxOnFloor(), 0.005, shadowed(), 150);
   CHECK(refined.end == RefineEnd::budget);
-  CHECK(refined.refined.mesh.positions.size() <= 500);
+  CHECK(refined.refined.mesh.positions.size() <= 150);
   CHECK(refined.after < refined.before);
 }
 
