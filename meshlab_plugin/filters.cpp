@@ -108,16 +108,12 @@ std::vector<double> areasOf(MeshModel& layer) {
 const std::vector<FilterText>& filterTexts() {
   static const std::vector<FilterText> texts{
       {Filter::bake, "SH Bake Light Transfer", "compute_sh_light_transfer_per_vertex",
-       "Bakes how light reaches every vertex of the layer, with shadows and the reflections between its parts, as "
-       "spherical harmonics: precomputed radiance transfer. <b>SH Relight</b> then lights it with any distant "
-       "light.<br>"
-       "The transfer is kept with the layer; the vertex quality becomes the share of the sky that each vertex sees. "
-       "Vertices on creases are split, and flat regions get more of them where that is asked for. Save the result with "
-       "<b>SH Save Baked PLY</b>, or export it as .shply to open "
-       "it "
-       "here again.<br>See:<br><i>Peter-Pike Sloan, Jan Kautz, John Snyder</i><br><b>\"Precomputed Radiance Transfer "
-       "for "
-       "Real-Time Rendering in Dynamic, Low-Frequency Lighting Environments\"</b><br>SIGGRAPH 2002"},
+       "Bakes how light reaches every vertex of the layer, with shadows and reflections, as spherical harmonics: "
+       "precomputed radiance transfer. <b>SH Relight</b> then lights it with any distant light.<br>"
+       "The vertex quality becomes the share of the sky that a vertex sees. Vertices on creases are split. Save the "
+       "result with <b>SH Save Baked PLY</b>, or export it as .shply to open it here again.<br>See: <i>Peter-Pike "
+       "Sloan, Jan Kautz, John Snyder</i>: <b>\"Precomputed Radiance Transfer for Real-Time Rendering in Dynamic, "
+       "Low-Frequency Lighting Environments\"</b>, SIGGRAPH 2002"},
       {Filter::refine, "SH Refine Flat Regions", "meshing_sh_refine_flat_regions",
        "Divides the flat regions of the layer into triangles with edges of about the length given, for light to be "
        "baked into their vertices: a wall of two triangles keeps no shadow on its middle. Curved parts, sharp edges, "
@@ -179,7 +175,7 @@ std::vector<std::string> Filters::apply(Filter filter, MeshDocument& document, c
 
 std::vector<std::string> Filters::bake(MeshDocument& document, const RichParameterList& parameters,
                                        const Watch& watch) {
-  const BakeChoice choice = bakeChoice(parameters);
+  BakeChoice choice = bakeChoice(parameters);
   MeshModel& layer = currentLayer(document);
   LayerMesh read = readLayer(layer);
   carryAttributes(layer, read);
@@ -192,14 +188,20 @@ std::vector<std::string> Filters::bake(MeshDocument& document, const RichParamet
     }
   }
   AutoBake bake;
+  std::vector<std::string> notes;
   runInBackground(
       [&](Progress& progress) {
         const Parallel parallel(choice.threads);
+        if (choice.light) {
+          choice.automatic.light = lights_.make(*choice.light, LightOrder::kMost, parallel, progress, notes);
+        }
         bake = autoBake(read.mesh, blockers, choice.options, choice.automatic, parallel, progress);
       },
       pollWith(watch));
   storeBake(layer, read, bake.baked, choice.preview);
-  return describe(bake);
+  const std::vector<std::string> lines = describe(bake);
+  notes.insert(notes.end(), lines.begin(), lines.end());
+  return notes;
 }
 
 std::vector<std::string> Filters::refineLayer(MeshModel& layer, const RichParameterList& parameters,

@@ -1,12 +1,13 @@
-// Parameters of the filters. MeshLab checks no ranges itself, neither in its window nor in scripts.
+// Parameters of the filters that bake and refine.
 #include "meshlab_plugin/parameters.h"
 
-#include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "meshlab_plugin/api.h"
+#include "meshlab_plugin/parameter_values.h"
 
 namespace shbake::meshlab {
 namespace {
@@ -15,54 +16,15 @@ constexpr int kMostMegabytes = 1 << 20;
 /// The default length of edges, in diagonals of the layer's box: a square wall gets about 1500 vertices.
 constexpr float kUsualLength = 0.02f;
 
-QStringList listOf(const std::vector<std::string>& names) {
-  QStringList list;
-  for (const std::string& name : names) list << QString::fromStdString(name);
-  return list;
-}
-
-[[noreturn]] void outOfRange(const char* label, const std::string& value, const std::string& range) {
-  throw usageError(std::string(label) + ": " + value + " is out of range", "give " + range);
-}
-
-int wholeOf(const RichParameterList& p, const char* name, const char* label, int least, int most) {
-  const int value = p.getInt(name);
-  if (value >= least && value <= most) return value;
-  outOfRange(label, std::to_string(value), std::to_string(least) + " to " + std::to_string(most));
-}
-
-std::string numberText(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
-
-double checkedReal(double value, const char* label, double least, double most) {
-  if (value >= least && value <= most) return value;
-  outOfRange(label, numberText(value), numberText(least) + " to " + numberText(most));
-}
-
-double realOf(const RichParameterList& p, const char* name, const char* label, double least, double most) {
-  return checkedReal(typedNumber(static_cast<float>(p.getFloat(name))), label, least, most);
-}
-
-double sliderOf(const RichParameterList& p, const char* name, const char* label, double least, double most) {
-  return checkedReal(typedNumber(static_cast<float>(p.getDynamicFloat(name))), label, least, most);
-}
-
-/// The value at the place of an enumeration.
-template <class T>
-T choiceOf(const RichParameterList& p, const char* name, const char* label, const std::vector<T>& values) {
-  const int index = p.getEnum(name);
-  if (index >= 0 && index < static_cast<int>(values.size())) return values[static_cast<std::size_t>(index)];
-  outOfRange(label, std::to_string(index), "0 to " + std::to_string(values.size() - 1));
-}
-
 void declareRays(RichParameterList& p) {
   p.addParam(
       RichInt("order", 4, "Order",
               "Bands of spherical harmonics, 1 to 8: order n keeps n x n coefficients a vertex and channel. 3 is "
-              "enough for soft light; 5 and more keep the edges of shadows."));
+              "enough for soft light; 5 and more keep the edges of shadows. Not used with an order by light."));
+  p.addParam(RichString("light", "", "Order by light",
+                        "Bake no more bands than pictures under this light need, to the tolerance or to 2 %: overcast, "
+                        "clear, partly-cloudy (skies of the CIE), white, or the whole path of an image of an "
+                        "environment map or of a .shlight file. Empty: the order above."));
   p.addParam(
       RichInt("rays", 0, "Rays",
               "Rays a vertex, up to 1048576, rounded up to a multiple of 16. 0: as many as the tolerance needs, or an "
@@ -147,9 +109,8 @@ void declareSurface(RichParameterList& p) {
                "Albedo from",
                "The share of light that the surface reflects. Colours are those that the layer had before shbake "
                "showed it baked or relit."));
-  p.addParam(RichFloat("albedo_red", 0.8f, "Uniform albedo, red", "Linear, 0 to 1."));
-  p.addParam(RichFloat("albedo_green", 0.8f, "Uniform albedo, green", "Linear, 0 to 1."));
-  p.addParam(RichFloat("albedo_blue", 0.8f, "Uniform albedo, blue", "Linear, 0 to 1."));
+  p.addParam(RichString("albedo_uniform", "0.8", "Uniform albedo",
+                        "Linear, 0 to 1: one number, or red, green and blue with commas, such as 0.8,0.5,0.3."));
   p.addParam(RichBool("linear_colors", false, "Colours are linear",
                       "Take 8-bit colours as linear albedo. Otherwise they are display values and sRGB-decoded."));
   p.addParam(
@@ -162,12 +123,6 @@ void declareSurface(RichParameterList& p) {
                "so that each side has its own light. Flat gives every face vertices of its own."));
   p.addParam(RichFloat("crease", 50.0f, "Crease angle",
                        "Faces that meet at more than this angle share no smooth normal, 0 to 180 degrees."));
-}
-
-double lengthOf(const RichParameterList& p, const char* name) {
-  const double length = typedNumber(static_cast<float>(p.getAbsPerc(name)));
-  if (length > 0 && length <= static_cast<double>(std::numeric_limits<float>::max())) return length;
-  outOfRange("Edge length", numberText(length), "more than 0");
 }
 
 double flatDegreesOf(const RichParameterList& p) {
@@ -197,10 +152,25 @@ AutoBakeOptions automaticOf(const RichParameterList& p, BakeMeshOptions& options
       choiceOf<std::optional<Refinement>>(p, "refine", "Refine flat regions",
                                           {Refinement::none, Refinement::length, Refinement::automatic, std::nullopt})
           .value_or(open ? Refinement::automatic : Refinement::none);
-  if (refinement.kind == Refinement::length) refinement.length = lengthOf(p, "refine_length");
+  if (refinement.kind == Refinement::length) refinement.length = lengthOf(p, "refine_length", "Edge length");
   refinement.flatDegrees = flatDegreesOf(p);
   refinement.maxVertices = mostVerticesOf(p);
   return choose;
+}
+
+/// The light that pictures are to be made under, where it is to say how many bands are baked.
+std::optional<LightChoice> lightForOrder(const RichParameterList& p) {
+  const std::string name = p.getString("light").toStdString();
+  if (name.empty()) return std::nullopt;
+  static const std::map<std::string, LightKind> kinds{{"overcast", LightKind::overcast},
+                                                      {"clear", LightKind::clear},
+                                                      {"partly-cloudy", LightKind::partlyCloudy},
+                                                      {"white", LightKind::white}};
+  LightChoice light;
+  const auto known = kinds.find(name);
+  light.kind = known != kinds.end() ? known->second : LightKind::file;
+  light.file = name;
+  return light;
 }
 
 /// What lengths of a layer are compared with: the diagonal of the box around it; 1 where it has none.
@@ -210,39 +180,16 @@ double diagonalOf(const MeshModel* layer, Axes axes) {
   return diagonal > 0 && std::isfinite(diagonal) ? diagonal : 1;
 }
 
-const std::vector<sh::Window>& windows() {
-  static const std::vector<sh::Window> all{sh::Window::none, sh::Window::hann, sh::Window::lanczos, sh::Window::gauss,
-                                           sh::Window::automatic};
-  return all;
-}
-
 }  // namespace
-
-double typedNumber(float value) {
-  if (!std::isfinite(value)) return static_cast<double>(value);
-  char text[64];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  double number = 0;
-  std::from_chars(text, end, number);
-  return number;
-}
-
-const int kFormatMask = vcg::tri::io::Mask::IOM_VERTCOLOR | vcg::tri::io::Mask::IOM_VERTNORMAL |
-                        vcg::tri::io::Mask::IOM_VERTQUALITY | vcg::tri::io::Mask::IOM_FACECOLOR;
-
-void declareFormat(RichParameterList& p) {
-  p.addParam(RichBool("ascii", false, "Text", "Write the file as text instead of binary."));
-}
-
-bool formatIsAscii(const RichParameterList& p) {
-  return p.getBool("ascii");
-}
 
 void declareBake(const MeshModel* layer, RichParameterList& p) {
   declareAutomatic(p);
   declareRays(p);
   declareRefinement(p, diagonalOf(layer, Axes::world));
   declareSurface(p);
+  p.addParam(RichInt("surface_samples", 0, "Surface samples",
+                     "Random places of the surface at which the error between the vertices is measured after the bake, "
+                     "16 to 1048576. 0: only where a tolerance asks for it."));
   p.addParam(RichBool("preview", true, "Show the visible sky as grey",
                       "Colour the vertices by the share of the sky that they see. The layer's own colours are kept for "
                       "albedo and for saving."));
@@ -253,6 +200,7 @@ void declareBake(const MeshModel* layer, RichParameterList& p) {
 
 BakeChoice bakeChoice(const RichParameterList& p) {
   BakeChoice choice;
+  choice.light = lightForOrder(p);
   BakeOptions& bake = choice.options.bake;
   choice.automatic = automaticOf(p, choice.options);
   bake.order = wholeOf(p, "order", "Order", 1, 8);
@@ -267,10 +215,13 @@ BakeChoice bakeChoice(const RichParameterList& p) {
   albedo.source = choiceOf<AlbedoSource>(
       p, "albedo", "Albedo from",
       {AlbedoSource::automatic, AlbedoSource::uniform, AlbedoSource::vertex, AlbedoSource::face});
-  albedo.uniform = {static_cast<float>(realOf(p, "albedo_red", "Uniform albedo, red", 0, 1)),
-                    static_cast<float>(realOf(p, "albedo_green", "Uniform albedo, green", 0, 1)),
-                    static_cast<float>(realOf(p, "albedo_blue", "Uniform albedo, blue", 0, 1))};
+  albedo.uniform = sharesOf(p, "albedo_uniform", "Uniform albedo");
   albedo.bytesAreLinear = p.getBool("linear_colors");
+  if (p.getInt("surface_samples") != 0) {
+    choice.options.surfaceSamples =
+        static_cast<std::size_t>(wholeOf(p, "surface_samples", "Surface samples", SurfaceErrorOptions::kLeastSamples,
+                                         SurfaceErrorOptions::kMostSamples));
+  }
   choice.options.points.normals = choiceOf<NormalSource>(
       p, "normals", "Normals", {NormalSource::automatic, NormalSource::smooth, NormalSource::flat});
   choice.options.points.creaseDegrees = realOf(p, "crease", "Crease angle", 0, 180);
@@ -295,108 +246,12 @@ void declareRefine(const MeshModel* layer, RichParameterList& p) {
 
 RefineChoice refineChoice(const RichParameterList& p) {
   RefineChoice choice;
-  choice.length = lengthOf(p, "length");
+  choice.length = lengthOf(p, "length", "Edge length");
   choice.options.flatDegrees = flatDegreesOf(p);
   choice.options.maxVertices = mostVerticesOf(p);
   choice.options.creaseDegrees = realOf(p, "crease", "Crease angle", 0, 180);
   choice.keepNormals = p.getBool("keep_normals");
   choice.threads = wholeOf(p, "threads", "Threads", 0, Parallel::kMostThreads);
-  return choice;
-}
-
-void declareRelight(RichParameterList& p) {
-  p.addParam(RichEnum("light", 0, listOf(lightKindNames()), "Light",
-                      "Skies of the CIE, the same radiance from everywhere, a disc, or a file."));
-  p.addParam(
-      OpenFileParameter("light_file", "",
-                        QStringList() << "*.hdr"
-                                      << "*.exr"
-                                      << "*.shlight"
-                                      << "*.png"
-                                      << "*.jpg"
-                                      << "*.tif",
-                        "Light file",
-                        "An image of an environment map, or a light file of 'shbake light'; used where the light "
-                        "is File. Give the whole path."));
-  p.addParam(RichDynamicFloat("rotation", 0.0f, -180.0f, 180.0f, "Rotation",
-                              "Turns the light about the axis that points up, in degrees, counter-clockwise seen from "
-                              "above."));
-  p.addParam(RichDynamicFloat("exposure", 0.0f, -8.0f, 8.0f, "Exposure",
-                              "Brightens the colours by 2 to this power; added to the automatic exposure where that is "
-                              "on."));
-  p.addParam(RichBool("auto_exposure", true, "Automatic exposure", "Make the brightest 1 % of the surface white."));
-  p.addParam(RichDynamicFloat("sun_altitude", 45.0f, 0.0f, 90.0f, "Sun altitude",
-                              "Degrees above the horizon: of the sun of a sky, or of the disc."));
-  p.addParam(
-      RichDynamicFloat("sun_azimuth", 0.0f, -180.0f, 180.0f, "Sun azimuth",
-                       "Degrees clockwise from north (+y), seen from above: of the sun of a sky, or of the disc."));
-  p.addParam(
-      RichFloat("sun_irradiance", 0.0f, "Sun irradiance",
-                "What the disc of the sun adds to a sky, on a surface that faces it. The sky's zenith has radiance "
-                "1."));
-  p.addParam(
-      RichFloat("disc_angle", 10.0f, "Disc half angle", "Half the angle under which the disc is seen, 0 to 90."));
-  p.addParam(RichFloat("ground", 0.0f, "Ground albedo", "Of the ground below the horizon of a sky, 0 to 1."));
-  p.addParam(RichEnum("up", 0,
-                      QStringList() << "z"
-                                    << "y",
-                      "Up axis", "The axis of the mesh that points up."));
-  p.addParam(RichEnum("tone", 0,
-                      QStringList() << "Clip"
-                                    << "Reinhard"
-                                    << "Filmic",
-                      "Tone curve", "How bright colours end at white."));
-  p.addParam(RichEnum("window", 0,
-                      QStringList() << "None"
-                                    << "Hann"
-                                    << "Lanczos"
-                                    << "Gauss"
-                                    << "Automatic",
-                      "Window",
-                      "Damps the ringing of small bright lights; automatic takes the least that leaves no light "
-                      "negative."));
-}
-
-RelightChoice relightChoice(const RichParameterList& p) {
-  RelightChoice choice;
-  LightChoice& light = choice.light;
-  light.kind = choiceOf<LightKind>(p, "light", "Light",
-                                   {LightKind::overcast, LightKind::clear, LightKind::partlyCloudy, LightKind::white,
-                                    LightKind::disc, LightKind::file});
-  light.file = p.getOpenFileName("light_file").toStdString();
-  light.turn = sliderOf(p, "rotation", "Rotation", -360, 360);
-  light.sunAltitude = sliderOf(p, "sun_altitude", "Sun altitude", 0, 90);
-  light.sunAzimuth = sliderOf(p, "sun_azimuth", "Sun azimuth", -360, 360);
-  light.sunIrradiance = realOf(p, "sun_irradiance", "Sun irradiance", 0, 1e6);
-  light.discHalfAngle = realOf(p, "disc_angle", "Disc half angle", 0, 90);
-  light.ground = realOf(p, "ground", "Ground albedo", 0, 1);
-  light.up = choiceOf<UpAxis>(p, "up", "Up axis", {UpAxis::z, UpAxis::y});
-  light.window = choiceOf<sh::Window>(p, "window", "Window", windows());
-  choice.automaticExposure = p.getBool("auto_exposure");
-  choice.tone.exposure = sliderOf(p, "exposure", "Exposure", -100, 100);
-  choice.tone.curve =
-      choiceOf<ToneCurve>(p, "tone", "Tone curve", {ToneCurve::clip, ToneCurve::reinhard, ToneCurve::filmic});
-  validate(light);
-  return choice;
-}
-
-void declareSave(RichParameterList& p) {
-  p.addParam(SaveFileParameter("file", "", "*.ply", "File", "The PLY file to write; give the whole path."));
-  p.addParam(RichEnum("colors", 0,
-                      QStringList() << "Those from before the bake"
-                                    << "Those that are shown"
-                                    << "None",
-                      "Vertex colours", "Which colours the file gets beside the transfer."));
-  p.addParam(RichBool("ascii", false, "Text", "Write the file as text instead of binary."));
-}
-
-SaveChoice saveChoice(const RichParameterList& p) {
-  SaveChoice choice;
-  choice.path = p.getSaveFileName("file").toStdString();
-  if (choice.path.empty()) throw usageError("File: no file is named", "name the PLY file to write");
-  choice.colors =
-      choiceOf<SavedColors>(p, "colors", "Vertex colours", {SavedColors::own, SavedColors::shown, SavedColors::none});
-  choice.ascii = p.getBool("ascii");
   return choice;
 }
 

@@ -1,6 +1,7 @@
 // The parameters of the filters as MeshLab shows them, and what they mean to shbake.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,8 +18,9 @@ namespace shbake::meshlab {
 struct BakeChoice {
   BakeMeshOptions options;
   AutoBakeOptions automatic;
-  bool otherLayers = true;  ///< other visible layers cast shadows and reflect
-  bool preview = true;      ///< show the visible share of the sky as grey
+  std::optional<LightChoice> light;  ///< whose pictures say how many bands are baked; else options.bake.order
+  bool otherLayers = true;           ///< other visible layers cast shadows and reflect
+  bool preview = true;               ///< show the visible share of the sky as grey
   int threads = 0;
 };
 
@@ -63,8 +65,5 @@ BakeChoice bakeChoice(const RichParameterList& parameters);
 RefineChoice refineChoice(const RichParameterList& parameters);
 RelightChoice relightChoice(const RichParameterList& parameters);
 SaveChoice saveChoice(const RichParameterList& parameters);
-
-/// The number that a person typed to get this float: 0.01f becomes 0.01, not 0.00999999978.
-double typedNumber(float value);
 
 }  // namespace shbake::meshlab

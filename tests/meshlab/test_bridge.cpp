@@ -10,6 +10,7 @@
 #include "meshlab_plugin/api.h"
 #include "meshlab_plugin/bridge.h"
 #include "meshlab_plugin/filters.h"
+#include "meshlab_plugin/parameter_values.h"
 #include "meshlab_plugin/parameters.h"
 
 using namespace shbake;
