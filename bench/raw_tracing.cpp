@@ -16,7 +16,7 @@ namespace shbake::bench {
 namespace {
 
 constexpr std::size_t kPoints = 32;  // points prepared at a time, so that their rays stay in the cache
-/// Rays that the bake hands to Embree in one call.
+/// The most rays that the bake hands to Embree in one call, of whole points where one has fewer.
 constexpr std::size_t kStream = RayScene::kMaxGroups * DirectionSet::kGroup;
 
 struct Axes {
@@ -65,7 +65,7 @@ double rawTracing(const LightingPoints& points, const DirectionSet& directions, 
       if (&r - packet.data() >= static_cast<std::ptrdiff_t>(count * packets)) break;
       rtcOccluded16(all.data(), embree.scene(), &context, &r);
     }
-    const std::size_t call = std::min(kStream, n);
+    const std::size_t call = n < kStream ? kStream / n * n : kStream;
     for (std::size_t i = 0; i < stream.size() && i < count * n; i += call) {
       const std::size_t some = std::min(call, count * n - i);
       rtcOccluded1M(embree.scene(), &context, &stream[i], static_cast<unsigned>(some), sizeof(RTCRay));

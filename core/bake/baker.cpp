@@ -144,15 +144,23 @@ class Baker {
     parallel_.forBlocks(points_.size(), Reflections::kBlock, [&](std::size_t begin, std::size_t end, int worker) {
       const FlushDenormals flush;
       PointTracer& tracer = tracers[static_cast<std::size_t>(worker)];
-      std::vector<std::uint16_t> sky(static_cast<std::size_t>(directions.groups()));
-      for (std::size_t i = begin; i < end; ++i) {
-        const auto p = static_cast<std::uint32_t>(i);
-        if (isWanted(p)) {
-          tracer.look(p, sky);
-          evaluate(evaluators[static_cast<std::size_t>(worker)], p, sky, tracer.spin(p));
-        }
-        progress_.advance(directions.size());
+      std::vector<std::uint32_t> block;
+      for (std::size_t p = begin; p < end; ++p) {
+        if (isWanted(p)) block.push_back(static_cast<std::uint32_t>(p));
       }
+      const auto groups = static_cast<std::size_t>(directions.groups());
+      const std::size_t together = std::max<std::size_t>(1, RayScene::kMaxGroups / groups);
+      std::vector<std::uint16_t> skies(together * groups);
+      for (std::size_t first = 0; first < block.size(); first += together) {
+        const auto some = std::span(block).subspan(first, std::min(together, block.size() - first));
+        tracer.look(some, std::span(skies).first(some.size() * groups));
+        for (std::size_t i = 0; i < some.size(); ++i) {
+          evaluate(evaluators[static_cast<std::size_t>(worker)], some[i], std::span(skies).subspan(i * groups, groups),
+                   tracer.spin(some[i]));
+        }
+        progress_.advance(static_cast<double>(some.size()) * directions.size());
+      }
+      progress_.advance(static_cast<double>(end - begin - block.size()) * directions.size());
     });
     progress_.end();
   }

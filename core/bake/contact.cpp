@@ -52,6 +52,21 @@ std::optional<Contact> contactOf(const LightingPoints& points, std::uint32_t fac
   return Contact{Contact::Part::edge, low, high, face};
 }
 
+bool mayBeNear(const LightingPoints& points, std::uint32_t face, std::uint32_t position, double distance) {
+  const Corners c = cornersOf(points, face, Vec3d(points.positions[position]));
+  const Vec3d normal = cross(c[1] - c[0], c[2] - c[0]);
+  const double area2 = dot(normal, normal), distance2 = distance * distance;
+  if (area2 == 0) return true;
+  const double above = dot(normal, c[0]);
+  if (above * above > distance2 * area2) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d edge = c[(k + 1) % 3] - c[k];
+    const double inwards = dot(cross(normal, edge), -c[k]);
+    if (inwards < 0 && inwards * inwards > distance2 * area2 * dot(edge, edge)) return false;
+  }
+  return true;
+}
+
 bool ContactSectors::hold(const Vec3d& inPlane) const {
   for (std::size_t i = 0; i + 1 < count; ++i) {
     if (dot(cross(direction[i], inPlane), normal) >= 0 && dot(cross(inPlane, direction[i + 1]), normal) >= 0)

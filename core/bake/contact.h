@@ -34,6 +34,10 @@ struct Contact {
 std::optional<Contact> contactOf(const LightingPoints& points, std::uint32_t face, std::uint32_t position,
                                  double distance);
 
+/// Whether `position` is within `distance` of face `face`, of which it is no corner. True for some positions that are
+/// farther, beside sharp corners, and for any near a face without extent; false only for positions that are not.
+bool mayBeNear(const LightingPoints& points, std::uint32_t face, std::uint32_t position, double distance);
+
 /// A face that is touched, seen from the position: the directions within it, as a row of sectors narrower than 180
 /// degrees from each direction to the next, counter-clockwise about the face's normal.
 struct ContactSectors {

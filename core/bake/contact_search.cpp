@@ -8,18 +8,22 @@
 namespace shbake {
 namespace {
 
-/// Positions in a block of work.
-constexpr std::size_t kBlock = 4096;
+/// Positions in a block of work: half a millisecond of it.
+constexpr std::size_t kBlock = 1024;
 
 using Found = std::pair<std::uint32_t, Contact>;
+
+/// Boxes of faces are wider than the clearance by this, since their bounds are rounded to float.
+constexpr double kBoxMargin = 1.01;
 
 /// One position's question, handed through Embree to `take`.
 struct Query {
   const LightingPoints& points;
-  double distance;
-  float margin;  // of boxes; twice the distance, since their bounds are rounded to float
-  std::uint32_t position;
+  double distance, clearance;
+  float margin;  // of boxes
   std::vector<Found>& found;
+  std::uint32_t position = 0;
+  bool clear = true;
 
   bool isInBox(const Triangle& t) const {
     const Vec3f &p = points.positions[position], &a = points.positions[t[0]], &b = points.positions[t[1]],
@@ -33,9 +37,11 @@ struct Query {
 
 /// Looks at one face that Embree found near; false: the query's radius stays as it is.
 bool take(RTCPointQueryFunctionArguments* args) {
-  const Query& q = *static_cast<const Query*>(args->userPtr);
+  Query& q = *static_cast<Query*>(args->userPtr);
   const Triangle& t = q.points.faces[args->primID];
   if (t[0] == q.position || t[1] == q.position || t[2] == q.position || !q.isInBox(t)) return false;
+  if (!mayBeNear(q.points, args->primID, q.position, q.clearance)) return false;
+  q.clear = false;
   if (const auto contact = contactOf(q.points, args->primID, q.position, q.distance)) {
     q.found.push_back({q.position, *contact});
   }
@@ -45,18 +51,20 @@ bool take(RTCPointQueryFunctionArguments* args) {
 }  // namespace
 
 Contacts::Contacts(const LightingPoints& points, RTCSceneTy* scene, const Parallel& parallel, Progress& progress)
-    : distance_(contactDistance(points)) {
+    : distance_(contactDistance(points)), clear_(points.positionFaces.size()) {
   const std::size_t count = points.positionFaces.size();
   std::vector<std::vector<Found>> blocks((count + kBlock - 1) / kBlock);
   progress.begin("searching contacts", static_cast<double>(count), "positions");
   parallel.forBlocks(count, kBlock, [&](std::size_t begin, std::size_t end, int) {
-    Query query{points, distance_, static_cast<float>(2 * distance_), 0, blocks[begin / kBlock]};
+    Query query{points, distance_, clearance(), static_cast<float>(kBoxMargin * clearance()), blocks[begin / kBlock]};
     for (std::size_t p = begin; p < end; ++p) {
       query.position = static_cast<std::uint32_t>(p);
+      query.clear = true;
       RTCPointQuery near{points.positions[p].x, points.positions[p].y, points.positions[p].z, 0, query.margin};
       RTCPointQueryContext context;
       rtcInitPointQueryContext(&context);
       rtcPointQuery(scene, &near, &context, take, &query);
+      clear_[p] = query.clear ? 1 : 0;
     }
     progress.advance(static_cast<double>(end - begin));
   });

@@ -37,9 +37,33 @@ double PointTracer::spin(std::uint32_t point) const {
   return 2 * std::numbers::pi * hashUnit(seed_, point);
 }
 
-void PointTracer::testFan(const RayScene::Rays& rays, int firstGroup, bool findFaces) {
+/// The axes of a point's directions; its fan is ready then.
+PointTracer::Axes PointTracer::takeUp(std::uint32_t point) {
+  fan_.setPoint(point);
+  const sh::LocalFrame frame = sh::localFrame(Vec3d(points_.pointNormal[point]), spin(point));
+  return {Vec3f(frame.x), Vec3f(frame.y), Vec3f(frame.z)};
+}
+
+/// The rays of some groups of the point that was taken up last, tested against its fan; `at` is where their masks go.
+RayScene::Rays PointTracer::testChunk(std::uint32_t point, const Axes& axes, int firstGroup, int groups, std::size_t at,
+                                      bool findFaces) {
+  const std::size_t ray = static_cast<std::size_t>(firstGroup) * kGroup;
+  const RayScene::Rays rays{points_.pointPosition[point],
+                            groups,
+                            directions_.x() + ray,
+                            directions_.y() + ray,
+                            directions_.z() + ray,
+                            axes.x,
+                            axes.y,
+                            axes.z,
+                            &active_[at]};
+  testFan(rays, firstGroup, at, findFaces);
+  return rays;
+}
+
+void PointTracer::testFan(const RayScene::Rays& rays, int firstGroup, std::size_t at, bool findFaces) {
   for (int g = 0; g < rays.groups; ++g) {
-    const auto i = static_cast<std::size_t>(g);
+    const std::size_t i = at + static_cast<std::size_t>(g);
     // Groups above the whole fan need no test, unless their answer is "blocked" and asks for a face.
     const bool above = directions_.lowestZ(firstGroup + g) >= fan_.height() && !fan_.blocksZenith();
     fanMask_[i] = 0;
@@ -53,6 +77,10 @@ void PointTracer::testFan(const RayScene::Rays& rays, int firstGroup, bool findF
   }
 }
 
+std::uint16_t PointTracer::skyOf(std::size_t at) const {
+  return static_cast<std::uint16_t>(kAll & ~(fanMask_[at] | blocked_[at]));
+}
+
 Hit PointTracer::hitOnFan(std::uint32_t face, std::uint32_t position) const {
   const Triangle& t = points_.faces[face];
   const auto whole = [&](std::size_t corner) { return static_cast<std::uint16_t>(t[corner] == position ? 65535 : 0); };
@@ -62,51 +90,54 @@ Hit PointTracer::hitOnFan(std::uint32_t face, std::uint32_t position) const {
   return {face, part(weights.y), part(weights.z)};
 }
 
-template <class Trace>
-void PointTracer::forChunks(std::uint32_t point, std::span<std::uint16_t> sky, bool findFaces, const Trace& trace) {
-  const Vec3d normal(points_.pointNormal[point]);
-  const sh::LocalFrame frame = sh::localFrame(normal, spin(point));
-  fan_.setPoint(point);
-  for (int first = 0; first < directions_.groups(); first += kChunk) {
-    const int groups = std::min(kChunk, directions_.groups() - first);
-    const std::size_t ray = static_cast<std::size_t>(first) * kGroup;
-    const RayScene::Rays rays{points_.pointPosition[point],
-                              groups,
-                              directions_.x() + ray,
-                              directions_.y() + ray,
-                              directions_.z() + ray,
-                              Vec3f(frame.x),
-                              Vec3f(frame.y),
-                              Vec3f(frame.z),
-                              active_.data()};
-    testFan(rays, first, findFaces);
-    trace(rays);
-    for (int g = 0; g < groups; ++g) {
-      const auto i = static_cast<std::size_t>(g);
-      sky[static_cast<std::size_t>(first + g)] = static_cast<std::uint16_t>(kAll & ~(fanMask_[i] | blocked_[i]));
-    }
-  }
+void PointTracer::traceBatch(std::span<std::uint16_t> sky) {
+  scene_.occluded(batch_, *buffers_, blocked_.data());
+  for (std::size_t i = 0; i < sky.size(); ++i) sky[i] = skyOf(i);
+  batch_.clear();
 }
 
 void PointTracer::look(std::uint32_t point, std::span<std::uint16_t> sky) {
-  forChunks(point, sky, false, [&](const RayScene::Rays& rays) { scene_.occluded(rays, *buffers_, blocked_.data()); });
+  look(std::span(&point, 1), sky);
+}
+
+void PointTracer::look(std::span<const std::uint32_t> points, std::span<std::uint16_t> sky) {
+  std::size_t done = 0;  // masks
+  int together = 0;      // groups of the batch
+  const auto trace = [&] {
+    traceBatch(sky.subspan(done, static_cast<std::size_t>(together)));
+    done += static_cast<std::size_t>(together);
+    together = 0;
+  };
+  for (const std::uint32_t point : points) {
+    const Axes axes = takeUp(point);
+    for (int first = 0; first < directions_.groups(); first += kChunk) {
+      const int groups = std::min(kChunk, directions_.groups() - first);
+      if (together + groups > kChunk) trace();
+      batch_.push_back(testChunk(point, axes, first, groups, static_cast<std::size_t>(together), false));
+      together += groups;
+    }
+  }
+  if (together > 0) trace();
 }
 
 void PointTracer::lookForHits(std::uint32_t point, std::span<std::uint16_t> sky, std::vector<Hit>& hits) {
-  const std::uint32_t position = points_.pointPosition[point];
-  forChunks(point, sky, true, [&](const RayScene::Rays& rays) {
+  const Axes axes = takeUp(point);
+  for (int first = 0; first < directions_.groups(); first += kChunk) {
+    const int groups = std::min(kChunk, directions_.groups() - first);
+    const RayScene::Rays rays = testChunk(point, axes, first, groups, 0, true);
     scene_.closest(rays, *buffers_, blocked_.data(), front_.data(), chunkHits_.data());
-    for (int g = 0; g < rays.groups; ++g) {
+    for (int g = 0; g < groups; ++g) {
       const auto i = static_cast<std::size_t>(g);
+      sky[static_cast<std::size_t>(first + g)] = skyOf(i);
       const unsigned traced = twoSided_ ? blocked_[i] : front_[i];
       for (unsigned bits = traced | fanMask_[i]; bits != 0; bits &= bits - 1) {
         const std::size_t k = i * kGroup + static_cast<unsigned>(std::countr_zero(bits));
         const bool onFan = (fanMask_[i] >> (k % kGroup) & 1) != 0;
         if (onFan && !twoSided_ && !fan_.facesFront(fanFaces_[k])) continue;
-        hits.push_back(onFan ? hitOnFan(fanFaces_[k], position) : chunkHits_[k]);
+        hits.push_back(onFan ? hitOnFan(fanFaces_[k], rays.position) : chunkHits_[k]);
       }
     }
-  });
+  }
 }
 
 }  // namespace shbake

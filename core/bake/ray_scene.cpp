@@ -9,10 +9,13 @@
 #include <cstddef>
 #include <cstring>
 #include <new>
+#include <optional>
 #include <string>
 
 #include "bake/contact_search.h"
 #include "bake/face_twins.h"
+#include "bake/own_faces.h"
+#include "bake/own_planes.h"
 #include "base/error.h"
 
 #ifdef __SSE__
@@ -22,64 +25,10 @@
 namespace shbake {
 namespace {
 
-/// Rays begin this far from their origin in units of contactDistance(), which spares the filter most faces that touch
-/// it.
+/// Rays begin this far from their origin in units of the distance within which nothing counts as hit: of
+/// contactDistance(), which spares the filter most faces that touch the position, and of the clearance of positions
+/// that have one (contact_search.h).
 constexpr double kNear = 0.5;
-/// Float hit distances are off by a few ulp of the coordinate scale, contactDistance(); hits that seem farther from
-/// contact than this are.
-constexpr double kSuspect = 16;
-/// Rounding of the product of normal and distance of a face that the origin lies on, in units of its edge length cubed:
-/// differences of coordinates carry one half ulp, a cross and a scalar product three each, sqrt(3) times as sums of
-/// absolute values. Of slivers, whose normal is short, this is far more than the suspect distance.
-constexpr double kProductRounding = 16 * 0x1p-24;
-
-/// What the filter needs beside the ray and the hit.
-struct FilterData {
-  const Triangle* faces = nullptr;
-  const Vec3f* positions = nullptr;
-  double contact = 0;  // distance to a plane, in work units
-  float suspect2 = 0;  // square of the greater one within which a hit is looked at
-  float product = 0;   // error of such a distance times twice a face's area
-};
-
-float longestEdge(const LightingPoints& points) {
-  float longest2 = 0;
-  for (const Triangle& t : points.faces) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3f edge = points.positions[t[k]] - points.positions[t[(k + 1) % 3]];
-      longest2 = std::max(longest2, dot(edge, edge));
-    }
-  }
-  return std::sqrt(longest2);
-}
-
-/// Whether `origin` lies on the plane of a face but for the rounding of coordinates. Exact to double.
-bool inContact(const FilterData& data, const Triangle& t, const Vec3f& origin) {
-  const Vec3d a(data.positions[t[0]]), b(data.positions[t[1]]), c(data.positions[t[2]]);
-  const Vec3d normal = cross(b - a, c - a);
-  return std::abs(dot(normal, a - Vec3d(origin))) <= data.contact * length(normal);
-}
-
-/// Rejects hits on faces that touch the ray's own position, whose id every ray carries: those that share it, and those
-/// that it lies on without sharing it. Both kinds are met near their plane, which most hits are not: these pass without
-/// a look at the face, by float arithmetic whose error is nothing beside the bounds.
-void leaveOutOwnFaces(const RTCFilterFunctionNArguments* args) {
-  const auto& data = *static_cast<const FilterData*>(args->geometryUserPtr);
-  const unsigned n = args->N;
-  for (unsigned i = 0; i < n; ++i) {
-    if (args->valid[i] != -1) continue;
-    const Vec3f normal(RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i), RTCHitN_Ng_z(args->hit, n, i));
-    const Vec3f direction(RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i),
-                          RTCRayN_dir_z(args->ray, n, i));
-    const float height = std::abs(dot(normal, direction) * RTCRayN_tfar(args->ray, n, i));
-    const float beyond = height - data.product;
-    if (beyond > 0 && beyond * beyond > data.suspect2 * dot(normal, normal)) continue;
-    const Triangle& t = data.faces[RTCHitN_primID(args->hit, n, i)];
-    const unsigned position = RTCRayN_id(args->ray, n, i);
-    const bool shared = t[0] == position || t[1] == position || t[2] == position;
-    if (shared || inContact(data, t, data.positions[position])) args->valid[i] = 0;
-  }
-}
 
 std::uint16_t quantise(float weight) {
   return static_cast<std::uint16_t>(std::clamp(weight, 0.0f, 1.0f) * 65535.0f + 0.5f);
@@ -110,8 +59,9 @@ struct RayScene::State {
   std::vector<Vec3f> padded;  // a copy of the positions where these have no room behind them
   std::vector<std::uint32_t> twins;
   Contacts contacts;
-  FilterData filter;
-  float near = 0, far = 0;
+  std::optional<OwnFaces> own;
+  float near = 0, clearNear = 0;  // where rays begin, the latter those of positions clear of other faces
+  float far = 0;
   bool packets = false;  // 16-wide packets are native; the stream is faster elsewhere
   RTCError error = RTC_ERROR_NONE;
   std::string errorText;
@@ -127,6 +77,7 @@ class RayScene::Buffers {
   alignas(64) std::array<RTCRay, kMaxGroups * 16> shadowStream;
   alignas(64) std::array<RTCRayHit, kMaxGroups * 16> hitStream;
   alignas(64) RTCRayHit16 packet;
+  OwnPlanes planes;
 };
 
 void RayScene::BuffersDeleter::operator()(Buffers* buffers) const {
@@ -152,8 +103,7 @@ RayScene::RayScene(const LightingPoints& points, float maxDistance, const Parall
     s.padded = points.positions;
   }
   const Vec3f* positions = hasRoom ? points.positions.data() : s.padded.data();
-  s.filter = {points.faces.data(), positions, contact, static_cast<float>(std::pow(kSuspect * contact, 2)),
-              static_cast<float>(kProductRounding * std::pow(static_cast<double>(longestEdge(points)), 3))};
+  s.own.emplace(points, contact);
 
   s.twins = faceTwins(points, progress);
 
@@ -175,13 +125,13 @@ RayScene::RayScene(const LightingPoints& points, float maxDistance, const Parall
                              points.positions.size());
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, points.faces.data(), 0,
                              sizeof(Triangle), points.faces.size());
-  rtcSetGeometryUserData(geometry, &s.filter);
-  rtcSetGeometryOccludedFilterFunction(geometry, leaveOutOwnFaces);
-  rtcSetGeometryIntersectFilterFunction(geometry, leaveOutOwnFaces);
+  rtcSetGeometryUserData(geometry, &*s.own);
   rtcCommitGeometry(geometry);
 
   s.scene = rtcNewScene(s.device);
   rtcSetSceneBuildQuality(s.scene, RTC_BUILD_QUALITY_MEDIUM);
+  // Which rays need the filter that leaves out own faces is told with the rays.
+  rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
   rtcAttachGeometry(s.scene, geometry);
   rtcReleaseGeometry(geometry);
   progress.begin("building", 0, "faces");
@@ -192,6 +142,7 @@ RayScene::RayScene(const LightingPoints& points, float maxDistance, const Parall
   if (s.error != RTC_ERROR_NONE) fail(s.error, s.errorText.c_str());
   progress.end();
   s.contacts = Contacts(points, s.scene, parallel, progress);
+  s.clearNear = static_cast<float>(kNear * s.contacts.clearance());
 }
 
 RayScene::~RayScene() = default;
@@ -202,7 +153,7 @@ const Contacts& RayScene::contacts() const {
 
 namespace {
 
-/// Fills entry i of a packet or stream with what all rays of a point share.
+/// Fills entry i of a packet with what all rays of a point share.
 template <class Packet>
 void setCommon(Packet& r, unsigned i, const Vec3f& origin, float near, std::uint32_t position) {
   r.org_x[i] = origin.x;
@@ -234,40 +185,43 @@ static_assert(offsetof(RTCRay, dir_x) == sizeof(Quad) && offsetof(RTCRay, tfar) 
 
 /// Calls visit(k) for every active ray, in order.
 template <class Visit>
-void forActive(const RayScene::Rays& rays, const Visit& visit) {
-  for (int g = 0; g < rays.groups; ++g) {
+void forActive(const std::uint16_t* active, int groups, const Visit& visit) {
+  for (int g = 0; g < groups; ++g) {
     const std::size_t first = static_cast<std::size_t>(g) * 16;
-    if (rays.active[g] == 0xFFFF) {
+    if (active[g] == 0xFFFF) {
       for (std::size_t i = 0; i < 16; ++i) visit(first + i);
       continue;
     }
-    for (unsigned bits = rays.active[g]; bits != 0; bits &= bits - 1) {
+    for (unsigned bits = active[g]; bits != 0; bits &= bits - 1) {
       visit(first + static_cast<unsigned>(std::countr_zero(bits)));
     }
   }
 }
 
-/// Fills a stream with the active rays in order; returns how many there are.
-template <class Stream>
-unsigned fillStream(Stream& stream, const RayScene::Rays& rays, const Vec3f& origin, float near, float far) {
+/// Writes the active rays in order to `entry` and what follows it; returns the end.
+template <class Entry>
+Entry* fillStream(Entry* entry, const RayScene::Rays& rays, const std::uint16_t* active, const Vec3f& origin,
+                  float near, float far) {
   const auto quad = [](const Vec3f& v, float w) { return Quad{v.x, v.y, v.z, w}; };
   const Quad x = quad(rays.axisX, 0), y = quad(rays.axisY, 0), z = quad(rays.axisZ, 0);
   const Quad head = quad(origin, near);
   const Quad tail{far, std::bit_cast<float>(~0u), std::bit_cast<float>(rays.position), 0};
-  unsigned n = 0;
-  forActive(rays, [&](std::size_t k) {
-    RTCRay& ray = rayOf(stream[n++]);
+  forActive(active, rays.groups, [&](std::size_t k) {
+    RTCRay& ray = rayOf(*entry++);
     const Quad direction = x * rays.x[k] + y * rays.y[k] + z * rays.z[k];
     std::memcpy(&ray.org_x, &head, sizeof head);
     std::memcpy(&ray.dir_x, &direction, sizeof direction);
     std::memcpy(&ray.tfar, &tail, sizeof tail);
   });
-  return n;
+  return entry;
 }
 
-/// Bit `i` where a ray was found occluded: Embree then sets tfar to -inf.
-unsigned occludedBit(const RTCRay& ray, unsigned i) {
-  return std::bit_cast<std::uint32_t>(ray.tfar) >> 31 << i;
+/// With OwnFaces::leaveOut or without a filter.
+RTCIntersectContext contextOf(bool filtered) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.filter = filtered ? OwnFaces::leaveOut : nullptr;
+  return context;
 }
 
 }  // namespace
@@ -283,64 +237,151 @@ void RayScene::Rays::turn(int group, float* worldX, float* worldY, float* worldZ
 }
 
 void RayScene::occluded(const Rays& rays, Buffers& buffers, std::uint16_t* hit) const {
+  occluded(std::span(&rays, 1), buffers, hit);
+}
+
+// A filter is called for every face that a ray may meet, which takes up to a third of the time, while next to no ray
+// meets a face of its own position. A position that is clear of other faces has no need of it but for rays that run
+// along its own; those of them that are blocked are traced again.
+void RayScene::occluded(std::span<const Rays> batch, Buffers& buffers, std::uint16_t* hit) const {
   const State& s = *state_;
-  const Vec3f origin = s.points->positions[rays.position];
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  std::fill_n(hit, rays.groups, std::uint16_t(0));
-  if (!s.packets) {
-    const unsigned n = fillStream(buffers.shadowStream, rays, origin, s.near, s.far);
-    rtcOccluded1M(s.scene, &context, buffers.shadowStream.data(), n, sizeof(RTCRay));
-    const RTCRay* ray = buffers.shadowStream.data();
-    for (int g = 0; g < rays.groups; ++g) {
-      unsigned mask = 0;
-      if (rays.active[g] == 0xFFFF) {
-        for (unsigned i = 0; i < 16; ++i) mask |= occludedBit(*ray++, i);
-      } else {
-        for (unsigned bits = rays.active[g]; bits != 0; bits &= bits - 1) {
-          mask |= occludedBit(*ray++, static_cast<unsigned>(std::countr_zero(bits)));
-        }
-      }
-      hit[g] = static_cast<std::uint16_t>(mask);
+  Masks open, doubtful, again;
+  unsigned anyOpen = 0, anyDoubtful = 0;
+  std::size_t g = 0;
+  for (const Rays& rays : batch) {
+    const bool clear = s.contacts.isClear(rays.position);
+    for (int k = 0; k < rays.groups; ++k, ++g) {
+      open[g] = clear ? rays.active[k] : 0;
+      doubtful[g] = clear ? 0 : rays.active[k];
+      anyOpen |= open[g];
+      anyDoubtful |= doubtful[g];
     }
-    return;
   }
+  std::fill_n(hit, g, std::uint16_t(0));
+  if (anyOpen != 0) {
+    traceShadows(batch, open, false, buffers, hit);
+    anyDoubtful |= findDoubtful(batch, open, hit, buffers, doubtful);
+  }
+  if (anyDoubtful == 0) return;
+  traceShadows(batch, doubtful, true, buffers, again.data());
+  for (std::size_t i = 0; i < g; ++i) hit[i] = static_cast<std::uint16_t>((hit[i] & ~doubtful[i]) | again[i]);
+}
+
+unsigned RayScene::findDoubtful(std::span<const Rays> batch, const Masks& open, const std::uint16_t* hit,
+                                Buffers& buffers, Masks& doubtful) const {
+  const State& s = *state_;
+  unsigned any = 0;
+  std::size_t g = 0;
+  for (const Rays& rays : batch) {
+    bool known = false;
+    for (int k = 0; k < rays.groups; ++k, ++g) {
+      if (open[g] == 0 || hit[g] == 0) continue;
+      if (!known) {
+        buffers.planes.setPosition(*s.points, rays.position, rays.axisX, rays.axisY, rays.axisZ, s.clearNear);
+        known = true;
+      }
+      const std::size_t first = static_cast<std::size_t>(k) * 16;
+      doubtful[g] = buffers.planes.close(rays.x + first, rays.y + first, rays.z + first, hit[g]);
+      any |= doubtful[g];
+    }
+  }
+  return any;
+}
+
+void RayScene::traceShadows(std::span<const Rays> batch, const Masks& active, bool filtered, Buffers& buffers,
+                            std::uint16_t* hit) const {
+  const State& s = *state_;
+  if (s.packets) return tracePackets(batch, active, filtered, buffers, hit);
+  const float near = filtered ? s.near : s.clearNear;
+  RTCIntersectContext context = contextOf(filtered);
+  RTCRay* end = buffers.shadowStream.data();
+  std::size_t groups = 0;
+  for (const Rays& rays : batch) {
+    end = fillStream(end, rays, &active[groups], s.points->positions[rays.position], near, s.far);
+    groups += static_cast<std::size_t>(rays.groups);
+  }
+  const RTCRay* ray = buffers.shadowStream.data();
+  rtcOccluded1M(s.scene, &context, buffers.shadowStream.data(), static_cast<unsigned>(end - ray), sizeof(RTCRay));
+  // Embree sets tfar of what is occluded to -inf.
+  const auto occludedBit = [&](unsigned i) { return std::bit_cast<std::uint32_t>(ray++->tfar) >> 31 << i; };
+  for (std::size_t g = 0; g < groups; ++g) {
+    unsigned mask = 0;
+    if (active[g] == 0xFFFF) {
+      for (unsigned i = 0; i < 16; ++i) mask |= occludedBit(i);
+    } else {
+      for (unsigned bits = active[g]; bits != 0; bits &= bits - 1) {
+        mask |= occludedBit(static_cast<unsigned>(std::countr_zero(bits)));
+      }
+    }
+    hit[g] = static_cast<std::uint16_t>(mask);
+  }
+}
+
+void RayScene::tracePackets(std::span<const Rays> batch, const Masks& active, bool filtered, Buffers& buffers,
+                            std::uint16_t* hit) const {
+  const State& s = *state_;
+  const float near = filtered ? s.near : s.clearNear;
+  RTCIntersectContext context = contextOf(filtered);
   RTCRay16& r = buffers.packet.ray;
-  for (unsigned i = 0; i < 16; ++i) setCommon(r, i, origin, s.near, rays.position);
-  for (int g = 0; g < rays.groups; ++g) {
-    if (rays.active[g] == 0) continue;
-    rays.turn(g, r.dir_x, r.dir_y, r.dir_z);
-    std::fill_n(r.tfar, 16, s.far);
-    alignas(64) const auto valid = laneFlags(rays.active[g]);
-    rtcOccluded16(valid.data(), s.scene, &context, &r);
-    for (unsigned i = 0; i < 16; ++i) hit[g] |= static_cast<std::uint16_t>((r.tfar[i] < 0) << i);
+  std::size_t g = 0;
+  for (const Rays& rays : batch) {
+    const Vec3f origin = s.points->positions[rays.position];
+    for (unsigned i = 0; i < 16; ++i) setCommon(r, i, origin, near, rays.position);
+    for (int k = 0; k < rays.groups; ++k, ++g) {
+      hit[g] = 0;
+      if (active[g] == 0) continue;
+      rays.turn(k, r.dir_x, r.dir_y, r.dir_z);
+      std::fill_n(r.tfar, 16, s.far);
+      alignas(64) const auto valid = laneFlags(active[g]);
+      rtcOccluded16(valid.data(), s.scene, &context, &r);
+      for (unsigned i = 0; i < 16; ++i) hit[g] |= static_cast<std::uint16_t>((r.tfar[i] < 0) << i);
+    }
   }
 }
 
 void RayScene::closest(const Rays& rays, Buffers& buffers, std::uint16_t* hit, std::uint16_t* front, Hit* hits) const {
   const State& s = *state_;
-  const Vec3f origin = s.points->positions[rays.position];
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   std::fill_n(hit, rays.groups, std::uint16_t(0));
   std::fill_n(front, rays.groups, std::uint16_t(0));
-  const auto take = [&](std::size_t k, unsigned face, float u, float v, float towards) {
+  Masks own{};
+  unsigned anyOwn = 0;
+  // Where hits on own faces are few, each such ray is traced again with the filter that leaves them out.
+  const bool open = s.contacts.isClear(rays.position);
+  const auto take = [&](std::size_t k, const Vec3f& direction, float distance, unsigned face, const Vec3f& normal,
+                        float u, float v) {
     const auto bit = static_cast<std::uint16_t>(1u << (k % 16));
+    if (open && (own[k / 16] & bit) == 0 && s.own->touches(face, rays.position, normal, direction, distance)) {
+      own[k / 16] |= bit;
+      anyOwn |= bit;
+      return;
+    }
     hit[k / 16] |= bit;
     hits[k] = {face, quantise(u), quantise(v)};
+    const float towards = dot(normal, direction);
     const bool isTwin = towards > 0 && !s.twins.empty() && s.twins[face] != LightingPoints::kNone;
     if (isTwin) hits[k] = onTwin(s.points->faces, hits[k], s.twins[face]);
     if (towards < 0 || isTwin) front[k / 16] |= bit;
   };
+  traceHits(rays, rays.active, !open, buffers, take);
+  if (anyOwn != 0) traceHits(rays, own.data(), true, buffers, take);
+}
+
+template <class Take>
+void RayScene::traceHits(const Rays& rays, const std::uint16_t* active, bool filtered, Buffers& buffers,
+                         const Take& take) const {
+  const State& s = *state_;
+  const Vec3f origin = s.points->positions[rays.position];
+  RTCIntersectContext context = contextOf(filtered);
   if (!s.packets) {
-    const unsigned n = fillStream(buffers.hitStream, rays, origin, s.near, s.far);
-    for (unsigned i = 0; i < n; ++i) buffers.hitStream[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1M(s.scene, &context, buffers.hitStream.data(), n, sizeof(RTCRayHit));
-    const RTCRayHit* entry = buffers.hitStream.data();
-    forActive(rays, [&](std::size_t k) {
+    RTCRayHit* const begin = buffers.hitStream.data();
+    RTCRayHit* const end = fillStream(begin, rays, active, origin, s.near, s.far);
+    for (RTCRayHit* entry = begin; entry != end; ++entry) entry->hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1M(s.scene, &context, begin, static_cast<unsigned>(end - begin), sizeof(RTCRayHit));
+    const RTCRayHit* entry = begin;
+    forActive(active, rays.groups, [&](std::size_t k) {
       const auto& [r, h] = *entry++;
       if (h.geomID == RTC_INVALID_GEOMETRY_ID) return;
-      take(k, h.primID, h.u, h.v, h.Ng_x * r.dir_x + h.Ng_y * r.dir_y + h.Ng_z * r.dir_z);
+      take(k, {r.dir_x, r.dir_y, r.dir_z}, r.tfar, h.primID, {h.Ng_x, h.Ng_y, h.Ng_z}, h.u, h.v);
     });
     return;
   }
@@ -348,16 +389,16 @@ void RayScene::closest(const Rays& rays, Buffers& buffers, std::uint16_t* hit, s
   RTCHit16& h = buffers.packet.hit;
   for (unsigned i = 0; i < 16; ++i) setCommon(r, i, origin, s.near, rays.position);
   for (int g = 0; g < rays.groups; ++g) {
-    if (rays.active[g] == 0) continue;
+    if (active[g] == 0) continue;
     rays.turn(g, r.dir_x, r.dir_y, r.dir_z);
     std::fill_n(r.tfar, 16, s.far);
     std::fill_n(h.geomID, 16, RTC_INVALID_GEOMETRY_ID);
-    alignas(64) const auto valid = laneFlags(rays.active[g]);
+    alignas(64) const auto valid = laneFlags(active[g]);
     rtcIntersect16(valid.data(), s.scene, &context, &buffers.packet);
     for (unsigned i = 0; i < 16; ++i) {
       if (h.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-      take(static_cast<std::size_t>(g) * 16 + i, h.primID[i], h.u[i], h.v[i],
-           h.Ng_x[i] * r.dir_x[i] + h.Ng_y[i] * r.dir_y[i] + h.Ng_z[i] * r.dir_z[i]);
+      take(static_cast<std::size_t>(g) * 16 + i, {r.dir_x[i], r.dir_y[i], r.dir_z[i]}, r.tfar[i], h.primID[i],
+           {h.Ng_x[i], h.Ng_y[i], h.Ng_z[i]}, h.u[i], h.v[i]);
     }
   }
 }

@@ -1,8 +1,10 @@
 // The faces of a scene in Embree, answering for rays that start at a lighting point's position.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "bake/contact_search.h"
@@ -59,12 +61,29 @@ class RayScene {
   /// Sets in hit[g] the bits of the active rays that are blocked.
   void occluded(const Rays& rays, Buffers& buffers, std::uint16_t* hit) const;
 
+  /// The same for several positions, at most kMaxGroups groups together, which are numbered through: rays of neighbours
+  /// are traced faster together than one position's alone, where these are few.
+  void occluded(std::span<const Rays> batch, Buffers& buffers, std::uint16_t* hit) const;
+
   /// Finds the nearest hits: sets bits in hit[g], the bits of those that met a face's front in front[g], and hits[g *
   /// 16 + i]. Of two coincident faces wound against each other, the one whose front is met is hit (face_twins.h).
   void closest(const Rays& rays, Buffers& buffers, std::uint16_t* hit, std::uint16_t* front, Hit* hits) const;
 
  private:
   struct State;
+  /// A mask for each group of a call.
+  using Masks = std::array<std::uint16_t, kMaxGroups>;
+
+  unsigned findDoubtful(std::span<const Rays> batch, const Masks& open, const std::uint16_t* hit, Buffers& buffers,
+                        Masks& doubtful) const;
+  void traceShadows(std::span<const Rays> batch, const Masks& active, bool filtered, Buffers& buffers,
+                    std::uint16_t* hit) const;
+  void tracePackets(std::span<const Rays> batch, const Masks& active, bool filtered, Buffers& buffers,
+                    std::uint16_t* hit) const;
+  template <class Take>
+  void traceHits(const Rays& rays, const std::uint16_t* active, bool filtered, Buffers& buffers,
+                 const Take& take) const;
+
   std::unique_ptr<State> state_;
 };
 

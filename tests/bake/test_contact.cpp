@@ -69,6 +69,51 @@ TEST_CASE("a position lies inside a face, on an edge, at a corner, or not on it"
   CHECK_FALSE(shbake::contactOf(triangleAnd({0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0.5, 0, 0}), 0, 3, kUlp));
 }
 
+TEST_CASE("no position within a distance of a face is taken for a farther one", "[contact]") {
+  constexpr double kDistance = 0.1;
+  const auto isNear = [](const Vec3d& p) {
+    return mayBeNear(triangleAnd({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, p), 0, 3, kDistance);
+  };
+  // Above and below, beyond an edge, beyond a corner: distances of 0.999 and 1.001 of it.
+  for (const double part : {0.999, 1.001}) {
+    const double d = part * kDistance;
+    CHECK(isNear({0.25, 0.25, d}) == (part < 1));
+    CHECK(isNear({0.25, 0.25, -d}) == (part < 1));
+    CHECK(isNear({0.5, -d, 0}) == (part < 1));
+    CHECK(isNear({0.5 + d / std::sqrt(2.0), 0.5 + d / std::sqrt(2.0), 0}) == (part < 1));
+    CHECK(isNear({-d, 0.5, 0}) == (part < 1));
+  }
+  CHECK(isNear({-0.999 * kDistance, 0, 0}));
+  CHECK(isNear({1 + 0.999 * kDistance, 0, 0}));
+  CHECK_FALSE(isNear({2, -0.5, 0}));
+  // A face without extent may lie anywhere to float arithmetic.
+  CHECK(mayBeNear(triangleAnd({0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 5, 5}), 0, 3, kDistance));
+}
+
+TEST_CASE("a position is clear where other faces are farther than the clearance", "[contact]") {
+  // Two sheets above each other whose faces share no position: each corner is as far from the other sheet as the gap.
+  for (const double part : {0.9, 1.1}) {
+    const auto sheets = [](double gap) {
+      return pointsOf(shapes::merged(shapes::grid({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 2, 2),
+                                     shapes::grid({-1, -1, gap}, {2, 0, 0}, {0, 2, 0}, 2, 2)));
+    };
+    const LightingPoints far = sheets(1);
+    const double clearance = contactsOf(far).clearance() / far.frame.scale;
+    const LightingPoints points = sheets(part * clearance);
+    const Contacts contacts = contactsOf(points);
+    REQUIRE(contacts.size() == 0);
+    INFO("gap " << part << " of the clearance");
+    for (std::uint32_t p = 0; p < points.positions.size(); ++p) CHECK(contacts.isClear(p) == (part > 1));
+  }
+  // What is in contact is not clear.
+  const LightingPoints boxes = pointsOf(shapes::boxesOnGround());
+  const Contacts contacts = contactsOf(boxes);
+  REQUIRE(contacts.size() > 0);
+  for (std::uint32_t p = 0; p < boxes.positions.size(); ++p) {
+    if (!contacts.of(p).empty()) CHECK_FALSE(contacts.isClear(p));
+  }
+}
+
 TEST_CASE("the sectors of a face in contact turn about its front", "[contact]") {
   for (const Vec3d& place : {Vec3d(0.25, 0.25, 0), Vec3d(0.5, 0, 0), Vec3d(0, 0.5, 0), Vec3d(kUlp / 2, 0, 0)}) {
     const LightingPoints points = triangleAnd({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, place);

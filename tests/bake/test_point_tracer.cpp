@@ -1,4 +1,5 @@
 // Point tracers: turns of the directions, chunks, hits on the fan.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -56,6 +57,26 @@ TEST_CASE("what a point sees does not depend on the points looked from before", 
     backward.look(p, again);
     REQUIRE(again == seen[p]);
     if (p == 0) break;
+  }
+}
+
+TEST_CASE("several points see together what each sees alone", "[point_tracer]") {
+  const LightingPoints points = pointsOf(shapes::chessPiece(0));
+  Progress progress;
+  const RayScene scene(points, kInfinity, Parallel(1), progress);
+  // One group a point; some that do not fill a call; more than fit one.
+  for (const int rays : {16, 5 * 16, 70 * 16}) {
+    const DirectionSet set(rays, 1);
+    PointTracer together(points, scene, set, 1, false), alone(points, scene, set, 1, false);
+    std::vector<std::uint32_t> chosen;
+    for (std::uint32_t p = 0; p < points.size(); p += 3) chosen.push_back(p);
+    const auto groups = std::size_t(set.groups());
+    std::vector<std::uint16_t> skies(chosen.size() * groups), sky(groups);
+    together.look(chosen, skies);
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      alone.look(chosen[i], sky);
+      REQUIRE(std::equal(sky.begin(), sky.end(), skies.begin() + std::ptrdiff_t(i * groups)));
+    }
   }
 }
 
