@@ -220,11 +220,4 @@ FlatRegions findFlatRegions(const Mesh& mesh, const EdgeTable& edges, const Flat
   return RegionFinder(mesh, edges, options, progress).run();
 }
 
-std::vector<std::uint32_t> flatRegionOfFace(const Mesh& mesh, const FlatOptions& options, Progress& progress) {
-  Passes passes(progress, "edges", mesh.triangles.size(), "faces", kEdgeTablePasses);
-  const EdgeTable edges = edgeTableOf(mesh, passes);
-  passes.end();
-  return findFlatRegions(mesh, edges, options, progress).ofFace;
-}
-
 }  // namespace shbake

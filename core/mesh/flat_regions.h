@@ -37,7 +37,4 @@ struct FlatRegions {
 /// Progress counts faces.
 FlatRegions findFlatRegions(const Mesh& mesh, const EdgeTable& edges, const FlatOptions& options, Progress& progress);
 
-/// FlatRegions::ofFace of a mesh with indices < V and finite positions. Throws what findFlatRegions() throws.
-std::vector<std::uint32_t> flatRegionOfFace(const Mesh& mesh, const FlatOptions& options, Progress& progress);
-
 }  // namespace shbake

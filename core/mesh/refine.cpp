@@ -11,63 +11,35 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/error.h"
 #include "base/passes.h"
-#include "mesh/contact_lines.h"
-#include "mesh/flat_edges.h"
 #include "mesh/flat_geometry.h"
-#include "mesh/flat_patches.h"
 #include "mesh/refine_attributes.h"
 #include "mesh/refine_budget.h"
 #include "mesh/refine_edges.h"
 #include "mesh/refine_patch.h"
-#include "mesh/work_frame.h"
 
 namespace shbake {
 namespace {
 
-// What rows keep from the lines they run along: this share of half the mesh's largest extent, too little to be seen,
-// and no less than so many units in the last place, which rays and contacts tell apart.
-constexpr double kRowOffset = 0x1p-12, kRowUlps = 1024;
-
-void checkIndices(const Mesh& mesh, Passes& passes) {
-  passes.forEach(mesh.triangles.size(), [&](std::size_t f) {
-    for (const std::uint32_t v : mesh.triangles[f]) {
-      if (v < mesh.positions.size()) continue;
-      throw Error({.file = mesh.source,
-                   .place = "triangle " + std::to_string(f),
-                   .cause = "vertex " + std::to_string(v) + " does not exist",
-                   .remedy = "repair the mesh"});
-    }
-  });
-  passes.forEach(mesh.positions.size(), [&](std::size_t v) {
-    if (isFinite(mesh.positions[v])) return;
-    throw Error({.file = mesh.source,
-                 .place = "vertex " + std::to_string(v),
-                 .cause = "it is not at a finite position",
-                 .remedy = "repair the mesh"});
-  });
-}
-
 class Refiner {
  public:
-  Refiner(const Mesh& mesh, const RefineOptions& options, const EdgeLength& length, const Parallel& parallel,
-          Progress& progress)
+  Refiner(const Mesh& mesh, const FlatParts& parts, std::size_t maxVertices, const EdgeLength& length,
+          const Parallel& parallel, Progress& progress)
       : mesh_(mesh),
-        options_(options),
+        parts_(parts),
+        edges_(parts.edges),
+        regions_(parts.regions),
         length_(length),
         parallel_(parallel),
         progress_(progress),
         attributes_(mesh),
-        budget_(mesh.source, mesh.positions.size(), options.maxVertices) {}
+        budget_(mesh.source, mesh.positions.size(), maxVertices),
+        patches_(parts.patches) {}
 
   RefinedMesh run() {
-    findPatches();
     if (regions_.count > 0) {
-      contacts_ = findContactLines(mesh_, edges_, patches_, progress_);
-      placeRows();
       divisions_.emplace(mesh_, edges_, patches_, length_);
-      std::vector<std::uint32_t> work = longPatches();
+      std::vector<std::uint32_t> work = patchesToMesh();
       progress_.begin("refining", 2 * budget_.expected(), "points");
       while (!work.empty()) {
         divideEdges(work);
@@ -80,9 +52,7 @@ class Refiner {
   }
 
  private:
-  void findPatches();
-  void placeRows();
-  std::vector<std::uint32_t> longPatches();
+  std::vector<std::uint32_t> patchesToMesh();
   void divideEdges(const std::vector<std::uint32_t>& work);
   void meshPatches(const std::vector<std::uint32_t>& work);
   std::vector<std::uint32_t> settleFailures(const std::vector<std::uint32_t>& work);
@@ -96,17 +66,16 @@ class Refiner {
   std::uint32_t vertexAt(std::uint32_t corner) const { return mesh_.triangles[corner / 3][corner % 3]; }
 
   const Mesh& mesh_;
-  const RefineOptions& options_;
+  const FlatParts& parts_;
+  const EdgeTable& edges_;
+  const FlatRegions& regions_;
   const EdgeLength& length_;
   const Parallel& parallel_;
   Progress& progress_;
   AttributeContinuity attributes_;
   RefineBudget budget_;
-  EdgeTable edges_;
-  FlatRegions regions_;
-  FlatPatches patches_;
-  ContactLines contacts_;
-  double rowOffset_ = 0;
+  FlatPatches patches_;       // taken apart where needed
+  std::vector<bool> isFine_;  // patches whose edges are all short enough
   std::optional<EdgeDivisions> divisions_;
   std::vector<std::optional<PatchMesh>> results_;                 // of each patch; with faces where it is refined
   std::vector<std::uint32_t> left_;                               // faces that could not be refined
@@ -114,26 +83,8 @@ class Refiner {
   std::vector<std::vector<std::uint32_t>> numbers_;               // of each patch's points, as vertices of the output
 };
 
-void Refiner::findPatches() {
-  // Indices 1, positions 1.
-  Passes passes(progress_, "edges", mesh_.triangles.size(), "faces", 2 + kEdgeTablePasses);
-  checkIndices(mesh_, passes);
-  edges_ = edgeTableOf(mesh_, passes);
-  passes.end();
-  regions_ = findFlatRegions(mesh_, edges_, {options_.flatDegrees, options_.creaseDegrees}, progress_);
-  if (regions_.count > 0) patches_ = findFlatPatches(mesh_, edges_, regions_, progress_);
-}
-
-void Refiner::placeRows() {
-  Passes passes(progress_, "measuring", mesh_.triangles.size(), "faces", 1);
-  const WorkFrame frame = workFrameOf(mesh_, passes);
-  const double most = magnitudeOf(frame.centre) + 1 / frame.scale;
-  rowOffset_ = std::max(kRowOffset / frame.scale, kRowUlps * coordinateUlp(mesh_, most));
-  passes.end();
-}
-
-/// The patches with an edge that is too long, in ascending order.
-std::vector<std::uint32_t> Refiner::longPatches() {
+/// The patches with an edge that is too long, or with contact lines, in ascending order.
+std::vector<std::uint32_t> Refiner::patchesToMesh() {
   // Faces 1, edges 1.
   Passes passes(progress_, "measuring edges", mesh_.triangles.size(), "faces", 2);
   passes.forEach<std::uint32_t>(mesh_.triangles.size(), [&](std::uint32_t f) {
@@ -148,19 +99,19 @@ std::vector<std::uint32_t> Refiner::longPatches() {
     budget_.expect(shape.area(), border, edgeLengthAt(mesh_, length_, f, centre));
   });
   budget_.checkExpected();
-  std::vector<bool> isLong(patches_.size());
+  isFine_.assign(patches_.size(), true);
   passes.forEach<std::uint32_t>(edges_.size(), [&](std::uint32_t e) {
     const auto inPatch = [this](FaceSide s) { return patches_.ofFace[s.face()] != FlatPatches::kNone; };
     const std::span<const FaceSide> sides = edges_[e];
     if (std::none_of(sides.begin(), sides.end(), inPatch) || !divisions_->isTooLong(e)) return;
     for (const FaceSide s : sides) {
-      if (inPatch(s)) isLong[patches_.ofFace[s.face()]] = true;
+      if (inPatch(s)) isFine_[patches_.ofFace[s.face()]] = false;
     }
   });
   passes.end();
   std::vector<std::uint32_t> work;
-  for (std::uint32_t p = 0; p < isLong.size(); ++p) {
-    if (isLong[p]) work.push_back(p);
+  for (std::uint32_t p = 0; p < patches_.size(); ++p) {
+    if (!isFine_[p] || !parts_.contacts[p].empty()) work.push_back(p);
   }
   return work;
 }
@@ -185,8 +136,8 @@ void Refiner::meshPatches(const std::vector<std::uint32_t>& work) {
                            .attributes = attributes_,
                            .divisions = *divisions_,
                            .length = length_,
-                           .contacts = contacts_,
-                           .rowOffset = rowOffset_,
+                           .contacts = parts_.contacts,
+                           .rowOffset = parts_.rowOffset,
                            .countNew =
                                [this](std::size_t points) {
                                  budget_.count(points);
@@ -194,7 +145,11 @@ void Refiner::meshPatches(const std::vector<std::uint32_t>& work) {
                                },
                            .countDone = [this](std::size_t points) { progress_.advance(static_cast<double>(points)); }};
   parallel_.forBlocks(work.size(), 1, [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t i = begin; i < end; ++i) results_[work[i]] = meshPatch(source, work[i]);
+    for (std::size_t i = begin; i < end; ++i) {
+      // Faces that were one patch with others are made anew to agree with their neighbours.
+      const bool rowsAlone = work[i] < isFine_.size() && isFine_[work[i]];
+      results_[work[i]] = meshPatch(source, work[i], rowsAlone);
+    }
     progress_.advance(0);
   });
 }
@@ -359,9 +314,15 @@ void Refiner::report(RefinedMesh& out) const {
 
 }  // namespace
 
+RefinedMesh refineFlatParts(const Mesh& mesh, const FlatParts& parts, std::size_t maxVertices, const EdgeLength& length,
+                            const Parallel& parallel, Progress& progress) {
+  return Refiner(mesh, parts, maxVertices, length, parallel, progress).run();
+}
+
 RefinedMesh refineFlatRegions(const Mesh& mesh, const RefineOptions& options, const EdgeLength& length,
                               const Parallel& parallel, Progress& progress) {
-  return Refiner(mesh, options, length, parallel, progress).run();
+  const FlatParts parts = findFlatParts(mesh, {options.flatDegrees, options.creaseDegrees}, progress);
+  return refineFlatParts(mesh, parts, options.maxVertices, length, parallel, progress);
 }
 
 }  // namespace shbake

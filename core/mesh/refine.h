@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "mesh/flat_regions.h"
+#include "mesh/flat_parts.h"
 #include "mesh/mesh.h"
 #include "mesh/refine_length.h"
 
@@ -39,6 +40,12 @@ struct RefineReport {
   std::array<double, 2> area{};           ///< before and after, in square file units
 };
 
+/// More vertices than allowed would be made.
+class TooManyVertices : public Error {
+ public:
+  using Error::Error;
+};
+
 struct RefinedMesh {
   Mesh mesh;
   std::vector<std::uint32_t> sourceFace;  ///< the input's face behind each face
@@ -56,5 +63,9 @@ struct RefinedMesh {
 /// errors for angles out of range or lengths that are not positive.
 RefinedMesh refineFlatRegions(const Mesh& mesh, const RefineOptions& options, const EdgeLength& length,
                               const Parallel& parallel, Progress& progress);
+
+/// The same where the flat parts are known: of `mesh`, by findFlatParts(). Throws the rest.
+RefinedMesh refineFlatParts(const Mesh& mesh, const FlatParts& parts, std::size_t maxVertices, const EdgeLength& length,
+                            const Parallel& parallel, Progress& progress);
 
 }  // namespace shbake

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/error.h"
+#include "mesh/refine.h"
 
 namespace shbake {
 namespace {
@@ -59,14 +59,15 @@ void RefineBudget::fail(double made) const {
   constexpr double kStep = 1.05;
   const std::string cause = "refining would make more than the " + std::to_string(most_) + " vertices allowed";
   const double room = static_cast<double>(most_) - static_cast<double>(before_);
-  if (room < 1) throw Error({.file = source_, .cause = cause, .remedy = "allow more: it has as many already"});
+  if (room < 1)
+    throw TooManyVertices({.file = source_, .cause = cause, .remedy = "allow more: it has as many already"});
   // What has been made tells how far off the expectation is.
   const double excess = std::max(1.0, made / std::max(1.0, expected()));
   double longer = kStep;
   while (excess * expected(longer) > room) longer *= kStep;
   const std::string fitting =
       shortest_ == longest_ ? "a length of " + roundedUp(longer * shortest_) : roundedUp(longer) + " times the lengths";
-  throw Error({.file = source_, .cause = cause, .remedy = fitting + " would fit, or allow more vertices"});
+  throw TooManyVertices({.file = source_, .cause = cause, .remedy = fitting + " would fit, or allow more vertices"});
 }
 
 }  // namespace shbake

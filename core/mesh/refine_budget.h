@@ -20,8 +20,8 @@ class RefineBudget {
   void expect(double area, double border, double length);
   /// Vertices expected to be new in all, for lengths `longer` times as long.
   double expected(double longer = 1) const { return inside_ / (longer * longer) + onBorders_ / longer; }
-  /// Throws an Error that says which length would fit when more than allowed are sure to come: where one length is
-  /// wanted everywhere, what is expected comes true.
+  /// Throws TooManyVertices that says which length would fit when more than allowed are sure to come: where one length
+  /// is wanted everywhere, what is expected comes true.
   void checkExpected() const;
 
   /// Counts candidates for new vertices. Throws when there are so many that most must become vertices.

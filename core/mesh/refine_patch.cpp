@@ -24,8 +24,8 @@ struct PatchFrame {
 
 class PatchWork {
  public:
-  PatchWork(const PatchSource& source, std::uint32_t patch)
-      : s_(source), faces_(source.patches[patch]), contacts_(source.contacts[patch]) {}
+  PatchWork(const PatchSource& source, std::uint32_t patch, bool rowsAlone)
+      : s_(source), faces_(source.patches[patch]), contacts_(source.contacts[patch]), rowsAlone_(rowsAlone) {}
 
   std::optional<PatchMesh> run() {
     numberVertices();
@@ -69,6 +69,7 @@ class PatchWork {
   const PatchSource& s_;
   std::span<const std::uint32_t> faces_;
   std::span<const Polyline> contacts_;
+  bool rowsAlone_;
   PatchMesh out_;
   PatchFrame frame_;
   std::unordered_map<std::uint32_t, std::uint32_t> numbers_;  // of vertices of the mesh
@@ -199,6 +200,7 @@ void PatchWork::addInnerPoints(PatchLocator& locator) {
   const auto first = static_cast<std::uint32_t>(places_.size());
   for (const auto& [from, to] : rows.joints) rows_.push_back({first + from, first + to});
   for (const PatchPoint& point : rows.points) addInnerPoint(point);
+  if (rowsAlone_) return;
   for (const PatchPoint& point : spreadPoints(locator, keptClear, wanted, s_.countNew)) addInnerPoint(point);
 }
 
@@ -238,8 +240,8 @@ std::uint32_t PatchWork::sourceOf(const Triangle& t, PatchLocator& locator) cons
 
 }  // namespace
 
-std::optional<PatchMesh> meshPatch(const PatchSource& source, std::uint32_t patch) {
-  return PatchWork(source, patch).run();
+std::optional<PatchMesh> meshPatch(const PatchSource& source, std::uint32_t patch, bool rowsAlone) {
+  return PatchWork(source, patch, rowsAlone).run();
 }
 
 }  // namespace shbake

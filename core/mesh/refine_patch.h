@@ -53,7 +53,8 @@ struct PatchSource {
 /// Cuts a patch anew. Nothing where that cannot be done without changing its shape: its faces overlap, or are so thin
 /// that rounding the new points to the precision of the file turns some over. A patch in which nothing is to be divided
 /// gets no faces. The file's vertices, edges between patches as they have been divided, and the plane are kept; new
-/// points lie on the faces that they are blended from to kPlaneUlps.
-std::optional<PatchMesh> meshPatch(const PatchSource& source, std::uint32_t patch);
+/// points lie on the faces that they are blended from to kPlaneUlps. `rowsAlone`: only rows along contact lines are
+/// added.
+std::optional<PatchMesh> meshPatch(const PatchSource& source, std::uint32_t patch, bool rowsAlone);
 
 }  // namespace shbake

@@ -116,8 +116,8 @@ class AutoRefiner {
 
   AutoRefinement run() {
     result_.refined = unrefined();
-    regions_ = flatRegionOfFace(mesh_, {options_.flatDegrees, pointOptions_.creaseDegrees}, progress_);
-    if (std::all_of(regions_.begin(), regions_.end(), [](auto r) { return r == LightingPoints::kNone; })) {
+    parts_ = findFlatParts(mesh_, {options_.flatDegrees, pointOptions_.creaseDegrees}, progress_);
+    if (parts_.regions.count == 0) {
       result_.end = RefineEnd::noFlat;
       return std::move(result_);
     }
@@ -160,7 +160,7 @@ class AutoRefiner {
     return same;
   }
 
-  std::uint32_t regionOf(std::uint32_t face) const { return regions_[result_.refined.sourceFace[face]]; }
+  std::uint32_t regionOf(std::uint32_t face) const { return parts_.regions.ofFace[result_.refined.sourceFace[face]]; }
 
   /// A scan has some faces that happen to be flat. Places on them alone need the light of their corners alone, as long
   /// as reflections are left out: that costs next to nothing where judging the whole mesh costs half a bake.
@@ -169,7 +169,7 @@ class AutoRefiner {
     std::vector<double> areas = areaWeights(scene.points, mesh_.triangles.size());
     const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
     for (std::uint32_t f = 0; f < areas.size(); ++f) {
-      if (regions_[f] == LightingPoints::kNone) areas[f] = 0;
+      if (parts_.regions.ofFace[f] == FlatRegions::kNone) areas[f] = 0;
     }
     const double flat = std::accumulate(areas.begin(), areas.end(), 0.0);
     if (flat == 0 || flat > kFewFlat * area) return flat > 0;
@@ -195,7 +195,7 @@ class AutoRefiner {
     std::vector<double> extra(areas.size(), 0);
     for (std::uint32_t f = 0; f < mesh.triangles.size() && result_.rounds > 0; ++f) {
       const std::uint32_t region = regionOf(f);
-      if (region == LightingPoints::kNone || areas[f] == 0) continue;
+      if (region == FlatRegions::kNone || areas[f] == 0) continue;
       const Vec3d middle = middleOf(mesh, f);
       const std::uint32_t level = field_.levelAt(region, middle);
       if (level > 0) extra[f] = level > before_.levelAt(region, middle) ? kPlacesOnYoung : kPlacesOnOld;
@@ -224,13 +224,13 @@ class AutoRefiner {
 
     flat_ = curved_ = flatShare_ = 0;
     for (std::uint32_t f = 0; f < areas.size(); ++f) {
-      if (regionOf(f) != LightingPoints::kNone) flatShare_ += areas[f] / area;
+      if (regionOf(f) != FlatRegions::kNone) flatShare_ += areas[f] / area;
     }
     misses_.clear();
     for (std::size_t s = 0; s < places.size(); ++s) {
       const std::uint32_t face = places[s].face, region = regionOf(face);
       const double share = squares[s] * areas[face] / area * count / (wanted[face] * static_cast<double>(even));
-      if (region == LightingPoints::kNone) {
+      if (region == FlatRegions::kNone) {
         curved_ += share;
         continue;
       }
@@ -242,10 +242,14 @@ class AutoRefiner {
 
   /// Asks for finer edges where most is missed, and refines. False: that cannot be had.
   bool refine(double flatTarget) {
+    // Where something stands on a region, rows of vertices along its foot come first, among edges as they are.
+    const bool rowsFirst = result_.rounds == 1;
+    const std::vector<bool> inContact = parts_.regionsInContact();
     const std::uint32_t step = flat_ > kQuarterFrom * flatTarget ? 2 : 1;
     std::map<LengthField::Cell, double> missed;
     for (const Miss& miss : misses_) {
-      const std::uint32_t level = std::min<std::uint32_t>(miss.level + step, LengthField::kMostLevels);
+      const std::uint32_t finer = rowsFirst && inContact[miss.region] ? 0 : step;
+      const std::uint32_t level = std::min<std::uint32_t>(miss.level + finer, LengthField::kMostLevels);
       missed[field_.cellAt(miss.region, miss.position, level)] += miss.share;
     }
     std::vector<std::pair<double, LengthField::Cell>> worst;
@@ -272,16 +276,13 @@ class AutoRefiner {
 
   /// Nothing where that takes more vertices than allowed.
   std::optional<RefinedMesh> refineAsWanted() const {
-    const RefineOptions refineOptions{options_.flatDegrees, pointOptions_.creaseDegrees, options_.maxVertices};
     const auto wanted = [this](std::uint32_t face, const Vec3d& place) {
-      const std::uint32_t level = field_.levelAt(regions_[face], place);
+      const std::uint32_t level = field_.levelAt(parts_.regions.ofFace[face], place);
       return level == 0 ? std::numeric_limits<double>::infinity() : field_.lengthOf(level);
     };
     try {
-      return refineFlatRegions(mesh_, refineOptions, wanted, parallel_, progress_);
-    } catch (const Error& e) {
-      // The mesh has been baked before: there is nothing else that could be wrong with it.
-      if (e.kind() == ErrorKind::cancelled) throw;
+      return refineFlatParts(mesh_, parts_, options_.maxVertices, wanted, parallel_, progress_);
+    } catch (const TooManyVertices&) {
       return std::nullopt;
     }
   }
@@ -294,9 +295,9 @@ class AutoRefiner {
   const AutoRefineOptions& options_;
   const Parallel& parallel_;
   Progress& progress_;
-  std::vector<std::uint32_t> regions_;  // of each face of the mesh as it was
-  LengthField field_, before_;          // what is wanted, and what was before the last round
-  std::uint32_t finest_ = 0;            // level wanted
+  FlatParts parts_;             // of the mesh as it was
+  LengthField field_, before_;  // what is wanted, and what was before the last round
+  std::uint32_t finest_ = 0;    // level wanted
   AutoRefinement result_;
   double flat_ = 0, curved_ = 0;  // squared errors of interpolation on flat and curved faces
   double flatShare_ = 0;          // of the area

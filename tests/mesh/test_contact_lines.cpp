@@ -3,8 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "mesh/contact_lines.h"
-#include "mesh/flat_geometry.h"
+#include "mesh/flat_parts.h"
 #include "support/shapes.h"
 
 using namespace shbake;
@@ -14,14 +13,10 @@ namespace {
 /// The lines on the patch of the first face.
 std::vector<Polyline> linesOnFirst(const Mesh& mesh) {
   Progress progress;
-  Passes passes(progress, "edges", 1, "faces", kEdgeTablePasses);
-  const EdgeTable edges = edgeTableOf(mesh, passes);
-  passes.end();
-  const FlatPatches patches = findFlatPatches(mesh, edges, findFlatRegions(mesh, edges, {}, progress), progress);
-  REQUIRE(patches.ofFace[0] != FlatPatches::kNone);
-  const ContactLines lines = findContactLines(mesh, edges, patches, progress);
-  CHECK(lines.starts.size() == patches.size() + 1);
-  const auto first = lines[patches.ofFace[0]];
+  const FlatParts parts = findFlatParts(mesh, {}, progress);
+  REQUIRE(parts.patches.ofFace[0] != FlatPatches::kNone);
+  CHECK(parts.contacts.starts.size() == parts.patches.size() + 1);
+  const auto first = parts.contacts[parts.patches.ofFace[0]];
   return {first.begin(), first.end()};
 }
 

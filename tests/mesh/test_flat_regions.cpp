@@ -6,7 +6,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "mesh/flat_regions.h"
+#include "mesh/flat_parts.h"
 #include "support/shapes.h"
 
 using namespace shbake;
@@ -15,7 +15,7 @@ namespace {
 
 std::vector<std::uint32_t> regionsOf(const Mesh& mesh, const FlatOptions& options = {}) {
   Progress progress;
-  return flatRegionOfFace(mesh, options, progress);
+  return findFlatParts(mesh, options, progress).regions.ofFace;
 }
 
 std::size_t countOf(const Mesh& mesh, const FlatOptions& options = {}) {

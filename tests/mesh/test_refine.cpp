@@ -72,12 +72,20 @@ TEST_CASE("a cube of twelve triangles gets as many vertices as equilateral trian
 
 TEST_CASE("what is fine enough stays as it is", "[refine]") {
   for (const Mesh& mesh :
-       {shapes::cube(), shapes::cornellRoom(4), shapes::grid({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 7, 5)}) {
+       {shapes::cube(), shapes::redFloorWhiteWall(4), shapes::grid({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 7, 5)}) {
     const RefinedMesh refined = refinedTo(mesh, 1.2);
     CHECK(sameMesh(refined.mesh, mesh));
     CHECK(refined.report.refined == 0);
     CHECK(sameMesh(refinedTo(mesh, std::numeric_limits<double>::infinity()).mesh, mesh));
   }
+  // What stands on a floor gets rows along its foot, and nothing else changes.
+  const Mesh room = shapes::cornellRoom(4);
+  const RefinedMesh rows = refinedTo(room, 1.2);
+  checkKept(room, rows);
+  CHECK(rows.report.refined == 1);
+  CHECK(rows.mesh.positions.size() > room.positions.size());
+  CHECK(rows.mesh.positions.size() <= room.positions.size() + 16);
+  CHECK(sameMesh(refinedTo(room, std::numeric_limits<double>::infinity()).mesh, room));
   // What has been refined has no edges that would be divided again, but for the few near corners.
   const Mesh once = refinedTo(shapes::cube(), 0.1).mesh;
   const RefinedMesh twice = refinedTo(once, 0.1);
@@ -236,7 +244,7 @@ TEST_CASE("a wall on the middle of a floor: three sheets on an edge are divided 
 
 TEST_CASE("no face of the ground reaches from under a box to beside it", "[refine]") {
   for (const double sunk : {0.0, 0.2}) {
-    for (const double length : {0.4, 0.2, 0.1, 0.03}) {
+    for (const double length : {0.7, 0.3, 0.1, 0.03}) {
       INFO("sunk " << sunk << ", length " << length);
       // Vertices of the ground under the box and around it, of which some are near its foot.
       const Mesh ground = shapes::grid({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, 9, 9);
