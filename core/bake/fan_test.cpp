@@ -141,9 +141,11 @@ const FanTest::Arc* FanTest::chooseStart(std::uint32_t p, const Vec3d& normal, V
   for (const Arc& arc : arcs_) {
     const Vec3d a = edges_[static_cast<std::size_t>(arc.from)].direction;
     const Vec3d b = edges_[static_cast<std::size_t>(arc.to)].direction;
-    const Vec3d n = normalized(cross(a, b));
     const double cosine = dot(a, b);
-    if (!(isOwn(arc.face, p) || isOwn(arc.back, p)) || n == Vec3d{}) continue;
+    if (!(isOwn(arc.face, p) || isOwn(arc.back, p))) continue;
+    if (best != nullptr && contacts.empty() && cosine > least) continue;  // nothing covers any: the widest counts
+    const Vec3d n = normalized(cross(a, b));
+    if (n == Vec3d{}) continue;
     const Vec3d above = normalized(normalized(a + b) + n * (dot(n, normal) < 0 ? -kStartHeight : kStartHeight));
     // What another face covers, such as the ground within the foot of a wall, is not the side that is looked at.
     const bool covered =
@@ -178,14 +180,14 @@ void FanTest::orient(const Vec3d& start) {
 }
 
 float FanTest::findHighest(const Vec3d& start, const Vec3d& normal) {
-  // The top of a minor arc is one of its ends, or the top of its great circle where that lies between them.
+  // The top of a minor arc is one of its ends, or the top of its great circle where the arc rises from both.
   const auto topOf = [&](const Vec3d& a, const Vec3d& b) {
-    const double ends = std::max(dot(a, normal), dot(b, normal));
+    const double heightA = dot(a, normal), heightB = dot(b, normal), cosine = dot(a, b);
+    const double ends = std::max(heightA, heightB);
+    if (heightB <= heightA * cosine || heightA <= heightB * cosine) return ends;
     const Vec3d c = cross(a, b);
     const double cc = dot(c, c);
-    if (cc == 0) return ends;
-    const Vec3d top = normal - c * (dot(c, normal) / cc);
-    return dot(cross(a, top), c) > 0 && dot(cross(top, b), c) > 0 ? std::max(ends, length(top)) : ends;
+    return cc > 0 ? std::max(ends, length(normal - c * (dot(c, normal) / cc))) : ends;
   };
   double highest = 0;
   for (Arc& arc : arcs_) {

@@ -36,12 +36,11 @@ void OwnPlanes::setPosition(const LightingPoints& points, std::uint32_t position
     const std::size_t corner = t[0] == position ? 0 : t[1] == position ? 1 : 2;
     const Vec3f a = points.positions[t[(corner + 1) % 3]] - origin, b = points.positions[t[(corner + 2) % 3]] - origin;
     const Vec3f normal = cross(a, b), local(dot(normal, axisX), dot(normal, axisY), dot(normal, axisZ));
-    const float longest = std::sqrt(dot(a, a)) + std::sqrt(dot(b, b));  // no edge is longer
+    const float longest = std::sqrt(2 * (dot(a, a) + dot(b, b)));  // |a| + |b| or more: no edge is longer
     const float bound = kRounding * longest * longest * (longest / near + 2);
     planes_.push_back({local, bound});
-    // |N.d| >= |N_z| d_z - |N_xy|, the horizontal part of d being 1 at most.
-    const float across = std::sqrt(local.x * local.x + local.y * local.y);
-    top_ = std::max(top_, (across + bound) / std::abs(local.z));
+    // |N.d| >= |N_z| d_z - |N_x| - |N_y|, the horizontal parts of d being 1 at most.
+    top_ = std::max(top_, (std::abs(local.x) + std::abs(local.y) + bound) / std::abs(local.z));
   }
 }
 
