@@ -206,9 +206,10 @@ Entry* fillStream(Entry* entry, const RayScene::Rays& rays, const std::uint16_t*
   const Quad x = quad(rays.axisX, 0), y = quad(rays.axisY, 0), z = quad(rays.axisZ, 0);
   const Quad head = quad(origin, near);
   const Quad tail{far, std::bit_cast<float>(~0u), std::bit_cast<float>(rays.position), 0};
-  forActive(active, rays.groups, [&](std::size_t k) {
+  const float *localX = rays.x, *localY = rays.y, *localZ = rays.z;  // what is written is none of these
+  forActive(active, rays.groups, [&, localX, localY, localZ](std::size_t k) {
     RTCRay& ray = rayOf(*entry++);
-    const Quad direction = x * rays.x[k] + y * rays.y[k] + z * rays.z[k];
+    const Quad direction = x * localX[k] + y * localY[k] + z * localZ[k];
     std::memcpy(&ray.org_x, &head, sizeof head);
     std::memcpy(&ray.dir_x, &direction, sizeof direction);
     std::memcpy(&ray.tfar, &tail, sizeof tail);
