@@ -15,17 +15,27 @@ shift 2
 meshes=("$@")
 [[ $# -gt 0 ]] || meshes=("$root"/samples/scenes/*.obj)
 
+ids=()
+for commit in "${commits[@]}"; do
+  ids+=("$(git -C "$root" rev-parse --verify --quiet "$commit^{commit}")") || {
+    echo "compare_commits: '$commit' is no commit" >&2
+    exit 2
+  }
+done
+for mesh in "${meshes[@]}"; do
+  [[ -f $mesh ]] || {
+    echo "compare_commits: there is no mesh $mesh" >&2
+    exit 2
+  }
+done
+
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 for i in 0 1; do
-  id=$(git -C "$root" rev-parse --verify --quiet "${commits[i]}^{commit}") || {
-    echo "compare_commits: '${commits[i]}' is no commit" >&2
-    exit 2
-  }
   source=$work/$i
   mkdir "$source"
-  git -C "$root" archive "$id" | tar -x -C "$source"
-  echo "building ${commits[i]} ($(git -C "$root" log -1 --format='%h %s' "$id"))" >&2
+  git -C "$root" archive "${ids[i]}" | tar -x -C "$source"
+  echo "building ${commits[i]} ($(git -C "$root" log -1 --format='%h %s' "${ids[i]}"))" >&2
   if ! { cmake -S "$source" -B "$source/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSHBAKE_TESTS=OFF &&
     cmake --build "$source/build" --target shbake; } >"$work/log" 2>&1; then
     tail -n 25 "$work/log" >&2
