@@ -1,11 +1,11 @@
 // `shbake bake`: a mesh in, the mesh with its light transfer out.
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include "cli/describe_transfer.h"
 #include "cli/format.h"
 #include "cli/options.h"
+#include "cli/output_path.h"
 #include "cli/parse.h"
 #include "cli/surface_option.h"
 #include "cli/verb.h"
@@ -160,26 +160,10 @@ void Bake::checkPaths() const {
     throw usageError("no mesh is named", blockers_.empty() ? usage : usage + "; the mesh comes before --blockers");
   }
   if (output_.empty()) throw usageError("no output is named", usage);
-  std::string extension = fs::path(output_).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  if (!extension.empty() && extension != ".ply") {
-    throw Error({.kind = ErrorKind::usage,
-                 .file = output_,
-                 .cause = "'" + extension + "' is not a format that shbake bake writes",
-                 .remedy = "name the output .ply"});
-  }
+  requirePlyName(output_, "bake");
   std::vector<std::string> inputs = blockers_;
   inputs.push_back(mesh_);
-  for (const std::string& input : inputs) {
-    std::error_code none;
-    if (force_ || !fs::equivalent(input, output_, none)) continue;
-    throw Error({.kind = ErrorKind::usage,
-                 .file = output_,
-                 .cause = "would replace the mesh it is baked from",
-                 .remedy = "name another output, or add --force"});
-  }
-  checkWritable(output_);
+  checkOutput(output_, inputs, "the mesh it is baked from", force_);
 }
 
 void Bake::warnOfIdleOptions(Session& session) const {

@@ -6,6 +6,7 @@
 #include "cli/light_options.h"
 #include "cli/light_text.h"
 #include "cli/options.h"
+#include "cli/output_path.h"
 #include "cli/parse.h"
 #include "cli/verb.h"
 
@@ -154,15 +155,7 @@ void MakeLight::checkInputs() const {
   std::vector<std::string> paths;
   for (const std::string& input : inputs_) paths.push_back(parseWeightedFile(input).path);
   for (const std::string& sample : samples_) paths.push_back(parseSample(sample).file.path);
-  for (const std::string& path : paths) {
-    std::error_code missing;
-    if (force_ || !fs::equivalent(path, output_, missing)) continue;
-    throw Error({.kind = ErrorKind::usage,
-                 .file = output_,
-                 .cause = "would replace one of the inputs",
-                 .remedy = "name another output, or add --force"});
-  }
-  checkWritable(output_);
+  checkOutput(output_, paths, "one of the inputs", force_);
 }
 
 std::string weightText(const Vec3d& weight) {

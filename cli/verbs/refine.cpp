@@ -1,18 +1,15 @@
 // `shbake refine`: a mesh in, the mesh with more vertices in its flat regions out.
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
+#include <array>
 #include <limits>
 
 #include "cli/format.h"
 #include "cli/options.h"
+#include "cli/output_path.h"
 #include "cli/parse.h"
 #include "cli/verb.h"
 
 namespace shbake::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 std::int64_t whole(std::size_t n) {
   return static_cast<std::int64_t>(n);
@@ -56,23 +53,8 @@ void Refine::checkPaths() const {
   if (mesh_.empty()) throw usageError("no mesh is named", usage);
   if (output_.empty()) throw usageError("no output is named", usage);
   if (length_ == 0) throw usageError("no length is given", usage);
-  std::string extension = fs::path(output_).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  if (!extension.empty() && extension != ".ply") {
-    throw Error({.kind = ErrorKind::usage,
-                 .file = output_,
-                 .cause = "'" + extension + "' is not a format that shbake refine writes",
-                 .remedy = "name the output .ply"});
-  }
-  std::error_code none;
-  if (!force_ && fs::equivalent(mesh_, output_, none)) {
-    throw Error({.kind = ErrorKind::usage,
-                 .file = output_,
-                 .cause = "would replace the mesh that is refined",
-                 .remedy = "name another output, or add --force"});
-  }
-  checkWritable(output_);
+  requirePlyName(output_, "refine");
+  checkOutput(output_, std::array{mesh_}, "the mesh that is refined", force_);
 }
 
 void Refine::run(Session& session) {

@@ -1,18 +1,17 @@
 // `shbake relight`: the colours that a baked mesh has under a light.
 #include <algorithm>
+#include <array>
 #include <chrono>
-#include <filesystem>
 
 #include "cli/format.h"
 #include "cli/light_options.h"
 #include "cli/options.h"
+#include "cli/output_path.h"
 #include "cli/verb.h"
 #include "cli/view_light.h"
 
 namespace shbake::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 class Relight : public Verb {
  public:
@@ -48,14 +47,7 @@ void Relight::checkPaths() const {
   const std::string usage = "usage: shbake relight BAKED.ply --light LIGHT -o OUT.ply";
   if (baked_.empty()) throw usageError("no baked file is named", usage);
   if (output_.empty()) throw usageError("no output is named", usage);
-  std::error_code none;
-  if (!force_ && fs::equivalent(baked_, output_, none)) {
-    throw Error({.kind = ErrorKind::usage,
-                 .file = output_,
-                 .cause = "would replace the file that is relit",
-                 .remedy = "name another output, or add --force"});
-  }
-  checkWritable(output_);
+  checkOutput(output_, std::array{baked_}, "the file that is relit", force_);
 }
 
 /// Puts the colours in place of the mesh's own, and says in the file's comments what they are.

@@ -1,6 +1,5 @@
 // `shbake render`: pictures of baked meshes under a light, and of lights.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -129,10 +128,7 @@ void Render::declareLook(CLI::App& app) {
 
 bool Render::drawsLight() const {
   if (files_.empty()) return true;
-  std::string extension = fs::path(files_[0]).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return files_.size() == 1 && extension != ".ply";
+  return files_.size() == 1 && lowerExtension(files_[0]) != ".ply";
 }
 
 void Render::checkOptions() const {
