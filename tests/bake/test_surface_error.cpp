@@ -3,9 +3,11 @@
 #include <cmath>
 
 #include "bake/closed_forms.h"
+#include "bake/floor_and_wall.h"
 #include "bake/support.h"
 #include "bake/surface_error.h"
 #include "sh/irradiance.h"
+#include "support/face_parts.h"
 #include "support/stopping.h"
 
 using namespace shbake;
@@ -23,49 +25,19 @@ SurfaceError measure(const LightingPoints& points, const TransferSet& baked, con
   return measureSurfaceError(points, baked, bake, {samples, faces}, parallel, progress);
 }
 
-/// Calls visit(face, weights) at the centroids of m x m equal parts of each face.
-template <class Visit>
-void overFaces(const LightingPoints& points, int m, const Visit& visit) {
-  for (std::size_t f = 0; f < points.faces.size(); ++f) {
-    for (int i = 0; i < m; ++i) {
-      for (int j = 0; j < 2 * i + 1; ++j) {
-        // Row i has 2 i + 1 triangles, of which every second stands on its head.
-        const double down = j % 2 == 0 ? 2.0 / 3 : 1.0 / 3, v = (j / 2 + 1.0 / 3 + (j % 2) / 3.0) / m;
-        const double both = (i + down) / m;
-        visit(f, std::array<double, 3>{1 - both, both - v, v});
-      }
-    }
-  }
-}
-
 template <class T, class OfCorner>
 T blended(const std::array<double, 3>& w, const OfCorner& ofCorner) {
   return ofCorner(0) * w[0] + ofCorner(1) * w[1] + ofCorner(2) * w[2];
 }
 
-/// Two unit squares that meet at right angles in the y axis and face each other, n x n cells each.
-Mesh floorAndWall(int n) {
-  const Vec3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
-  return shapes::merged(shapes::grid({}, x, y, n, n), shapes::grid({}, y, z, n, n));
-}
-
 /// The mean square over floorAndWall() of what interpolation of `baked`, of order 1 and albedo 1, errs by.
 double meanSquareOfFloorAndWall(const LightingPoints& points, const TransferSet& baked) {
-  const std::vector<Vec3d> floor{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
-      wall{{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}};
   const double open = sh::unshadowedNorm(1);
   double sum = 0, count = 0;
   overFaces(points, 40, [&](std::size_t f, const std::array<double, 3>& w) {
-    const Vec3d at = blended<Vec3d>(w, [&](std::size_t k) {
-      return Vec3d(points.positions[points.faces[f][k]]) * (1 / points.frame.scale) + points.frame.centre;
-    });
     const double seen =
         blended<double>(w, [&](std::size_t k) { return double(baked.at(points.facePoints[f][k], 0)[0]) / open; });
-    const bool onFloor = points.pointNormal[points.facePoints[f][0]].z > 0.5f;
-    std::vector<Vec3d> other = onFloor ? wall : floor;
-    for (Vec3d& q : other) q -= at;
-    const double hidden = formFactor(onFloor ? Vec3d(0, 0, 1) : Vec3d(1, 0, 0), other);
-    sum += std::pow(seen - (1 - hidden), 2);
+    sum += std::pow(seen - skyOfFloorAndWall(points, f, w), 2);
     ++count;
   });
   return sum / count;

@@ -5,13 +5,14 @@
 #include <cmath>
 #include <filesystem>
 
-#include "bake/closed_forms.h"
+#include "bake/floor_and_wall.h"
 #include "bake/support.h"
 #include "bake/surface_error.h"
 #include "bake/surface_fit.h"
 #include "base/error.h"
 #include "mesh/mesh_reader.h"
 #include "sh/irradiance.h"
+#include "support/face_parts.h"
 #include "support/stopping.h"
 
 using namespace shbake;
@@ -41,39 +42,6 @@ SurfaceFitOptions kindOf(FitKind kind) {
   return options;
 }
 
-/// Two unit squares that meet at right angles in the y axis and face each other, n x n cells each.
-Mesh floorAndWall(int n) {
-  const Vec3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
-  return shapes::merged(shapes::grid({}, x, y, n, n), shapes::grid({}, y, z, n, n));
-}
-
-/// The visible share of the sky at a place of floorAndWall().
-double skyAt(const LightingPoints& points, std::size_t face, const std::array<double, 3>& w) {
-  Vec3d at;
-  for (std::size_t k = 0; k < 3; ++k) {
-    at += (Vec3d(points.positions[points.faces[face][k]]) * (1 / points.frame.scale) + points.frame.centre) * w[k];
-  }
-  const bool onFloor = points.pointNormal[points.facePoints[face][0]].z > 0.5f;
-  std::vector<Vec3d> other = onFloor ? std::vector<Vec3d>{{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}
-                                     : std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  for (Vec3d& q : other) q -= at;
-  return 1 - formFactor(onFloor ? Vec3d(0, 0, 1) : Vec3d(1, 0, 0), other);
-}
-
-/// Calls visit(face, weights) at the centroids of m x m equal parts of each face.
-template <class Visit>
-void overFaces(const LightingPoints& points, int m, const Visit& visit) {
-  for (std::size_t f = 0; f < points.faces.size(); ++f) {
-    for (int i = 0; i < m; ++i) {
-      for (int j = 0; j < 2 * i + 1; ++j) {
-        const double down = j % 2 == 0 ? 2.0 / 3 : 1.0 / 3, v = (j / 2 + 1.0 / 3 + (j % 2) / 3.0) / m;
-        const double both = (i + down) / m;
-        visit(f, std::array<double, 3>{1 - both, both - v, v});
-      }
-    }
-  }
-}
-
 /// The mean square over floorAndWall() by which interpolated shares of the sky err.
 template <class OfPoint>
 double meanSquare(const LightingPoints& points, const OfPoint& ofPoint) {
@@ -81,7 +49,7 @@ double meanSquare(const LightingPoints& points, const OfPoint& ofPoint) {
   overFaces(points, 40, [&](std::size_t f, const std::array<double, 3>& w) {
     double seen = 0;
     for (std::size_t k = 0; k < 3; ++k) seen += w[k] * ofPoint(points.facePoints[f][k]);
-    sum += std::pow(seen - skyAt(points, f, w), 2);
+    sum += std::pow(seen - skyOfFloorAndWall(points, f, w), 2);
     ++count;
   });
   return sum / count;
@@ -93,7 +61,7 @@ Eigen::VectorXd bestValues(const LightingPoints& points) {
   Eigen::MatrixXd g = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
   overFaces(points, 40, [&](std::size_t f, const std::array<double, 3>& w) {
-    const double sky = skyAt(points, f, w);
+    const double sky = skyOfFloorAndWall(points, f, w);
     for (std::size_t a = 0; a < 3; ++a) {
       right[points.facePoints[f][a]] += w[a] * sky;
       for (std::size_t b = 0; b < 3; ++b) g(points.facePoints[f][a], points.facePoints[f][b]) += w[a] * w[b];
