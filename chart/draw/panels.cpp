@@ -10,12 +10,24 @@ namespace {
 
 constexpr double kPercent = 100;
 
+/// Adds an error in percent; one of 0 has no place on a logarithmic axis.
+void addError(std::vector<Place>& places, double x, double error) {
+  if (error > 0) places.push_back({x, kPercent * error});
+}
+
 std::vector<Place> placesOf(const std::vector<CurvePoint>& points) {
   std::vector<Place> places;
-  for (const CurvePoint& p : points) {
-    if (p.error > 0) places.push_back({p.cpu, kPercent * p.error});
-  }
+  for (const CurvePoint& p : points) addError(places, p.cpu, p.error);
   return places;
+}
+
+Panel emptyPanel(const std::string& name, const std::string& title, const Axis& x) {
+  Panel panel;
+  panel.name = name;
+  panel.title = title;
+  panel.x = x;
+  panel.y = {"error in %", true};
+  return panel;
 }
 
 bool hasPlaces(const Panel& panel) {
@@ -23,10 +35,9 @@ bool hasPlaces(const Panel& panel) {
 }
 
 /// Curves of some groups, the front of them all, and the default.
-Panel speedPanel(const ChartData& data, std::initializer_list<MethodGroup> groups) {
-  Panel panel;
-  panel.x = {"CPU time for the whole mesh in seconds", true};
-  panel.y = {"error in %", true};
+Panel speedPanel(const std::string& name, const std::string& title, const ChartData& data,
+                 std::initializer_list<MethodGroup> groups) {
+  Panel panel = emptyPanel(name, title, {"CPU time for the whole mesh in seconds", true});
   std::vector<CurvePoint> all{data.defaults};
   int color = 0;
   for (const MethodCurve& curve : data.curves) {
@@ -50,9 +61,8 @@ Panel speedPanel(const ChartData& data, std::initializer_list<MethodGroup> group
 }
 
 Panel directionsPanel(const ChartData& data) {
-  Panel panel = speedPanel(data, {MethodGroup::ours, MethodGroup::directions});
-  panel.name = "directions";
-  panel.title = "Directions: error against CPU time (in brackets: slope by rays)";
+  Panel panel = speedPanel("directions", "Directions: error against CPU time (in brackets: slope by rays)", data,
+                           {MethodGroup::ours, MethodGroup::directions});
   panel.caption =
       "16 to 4096 rays a point, all with the same exact exclusion, tracing and sums; the error is that of the "
       "shadowed transfer against the reference, RMS over the surface, relative to the unshadowed transfer. "
@@ -61,9 +71,8 @@ Panel directionsPanel(const ChartData& data) {
 }
 
 Panel programsPanel(const ChartData& data) {
-  Panel panel = speedPanel(data, {MethodGroup::ours, MethodGroup::exclusion, MethodGroup::programs});
-  panel.name = "programs";
-  panel.title = "Other loops and exclusions: error against CPU time (slope by rays)";
+  Panel panel = speedPanel("programs", "Other loops and exclusions: error against CPU time (slope by rays)", data,
+                           {MethodGroup::ours, MethodGroup::exclusion, MethodGroup::programs});
   panel.caption =
       "Curves that level off have errors that more rays do not mend: light that leaks through what was left "
       "out, or shadows of the surface on itself.";
@@ -71,21 +80,14 @@ Panel programsPanel(const ChartData& data) {
 }
 
 Panel ordersPanel(const ChartData& data) {
-  Panel panel;
-  panel.name = "orders";
-  panel.title = "Error against order";
-  panel.x = {"order: bands of spherical harmonics", false};
-  panel.y = {"error in %", true};
+  Panel panel = emptyPanel("orders", "Error against order", {"order: bands of spherical harmonics", false});
   Series missing{"bands left out, all lights alike", Series::Style::strong, 0, {}};
   Series lit{"bands left out, under the light", Series::Style::line, 1, {}};
   Series sampling{"rays (" + std::to_string(data.defaults.rays) + "), within the bands", Series::Style::dashed, 2, {}};
   for (const OrderPoint& p : data.orders) {
-    const auto add = [&](Series& series, double error) {
-      if (error > 0) series.places.push_back({double(p.order), kPercent * error});
-    };
-    add(missing, p.truncation);
-    if (p.lit) add(lit, *p.lit);
-    add(sampling, p.sampling);
+    addError(missing.places, p.order, p.truncation);
+    if (p.lit) addError(lit.places, p.order, *p.lit);
+    addError(sampling.places, p.order, p.sampling);
   }
   panel.series = {missing};
   if (!data.light.empty()) panel.series.push_back(lit);
@@ -97,15 +99,11 @@ Panel ordersPanel(const ChartData& data) {
 }
 
 Panel bouncesPanel(const ChartData& data) {
-  Panel panel;
-  panel.name = "bounces";
-  panel.title = "Error against reflections";
-  panel.x = {"reflections that are summed", false};
-  panel.y = {"error in %", true};
+  Panel panel = emptyPanel("bounces", "Error against reflections", {"reflections that are summed", false});
   Series counted{"summed one by one", Series::Style::strong, 0, {}};
   Series solved{"default: solved to the tolerance", Series::Style::star, 0, {}};
   for (const BouncePoint& p : data.bounces.points) {
-    if (p.error > 0) (p.automatic ? solved : counted).places.push_back({double(p.bounces), kPercent * p.error});
+    addError((p.automatic ? solved : counted).places, p.bounces, p.error);
   }
   panel.series = {counted, solved};
   panel.caption = "What the reflections beyond these would add, by the same " + std::to_string(data.bounces.rays) +
@@ -126,7 +124,7 @@ Series surfaceSeries(const ChartData& data, SurfaceRefinement refinement, bool f
     const bool asIs = p.refinement == SurfaceRefinement::none;
     if (p.fitted != fitted || !(asIs || p.refinement == refinement) || p.error.rms <= 0) continue;
     refined += asIs ? 0 : 1;
-    series.places.push_back({double(p.vertices), kPercent * p.error.rms});
+    addError(series.places, double(p.vertices), p.error.rms);
   }
   if (refined == 0) series.places.clear();
   return series;
@@ -139,18 +137,15 @@ Series asItIs(const ChartData& data, bool fitted) {
                 0,
                 {}};
   for (const SurfacePoint& p : data.surface.points) {
-    if (p.refinement != SurfaceRefinement::none || p.fitted != fitted || p.error.rms <= 0) continue;
-    series.places.push_back({double(p.vertices), kPercent * p.error.rms});
+    if (p.refinement != SurfaceRefinement::none || p.fitted != fitted) continue;
+    addError(series.places, double(p.vertices), p.error.rms);
   }
   return series;
 }
 
 Panel surfacePanel(const ChartData& data) {
-  Panel panel;
-  panel.name = "surface";
-  panel.title = "Error between the vertices against their number";
-  panel.x = {"vertices", true};
-  panel.y = {"error between the vertices in %", true};
+  Panel panel = emptyPanel("surface", "Error between the vertices against their number", {"vertices", true});
+  panel.y.label = "error between the vertices in %";
   for (const SurfaceRefinement refinement : {SurfaceRefinement::automatic, SurfaceRefinement::even}) {
     for (const bool fitted : {false, true}) panel.series.push_back(surfaceSeries(data, refinement, fitted));
   }
