@@ -48,7 +48,7 @@ class ProgramTest(unittest.TestCase):
         return subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, preexec_fn=prepare_child, **settings)
 
     def run_program(self, *arguments, prepare=None):
-        """Runs the program to its end; the result has .code, .out, .err and .memory, the peak in bytes."""
+        """Runs the program to its end; the result has .code, .stdout and .stderr."""
         process = self.start(*arguments, prepare=prepare)
         out, err = process.communicate(timeout=120)
         result = subprocess.CompletedProcess(arguments, process.returncode, out.decode(), err.decode())
@@ -349,6 +349,23 @@ class Reports(ProgramTest):
         self.bake("--order", "3", "--albedo", "0.9,0.5,0.2", "--seed", "2", output=self.folder / "other.ply")
         other = json.loads(self.run_program("compare", "out.ply", "other.ply", "--json", "-").stdout)
         self.assertGreater(other["difference"]["rms"], 0)
+
+    def test_the_fit_is_told(self):
+        options = ("--rays", 64, "--seed", 3)
+        files = {kind: self.folder / f"{kind}.ply" for kind in ("vertex", "surface", "auto")}
+        told = {kind: json.loads(self.bake("--fit", kind, *options, "--json", "-", output=file).stdout)
+                for kind, file in files.items()}
+        self.assertNotIn("fit", told["vertex"])
+        self.assertNotIn(b" fit=", files["vertex"].read_bytes())
+        self.assertEqual(told["surface"]["fit"]["reason"], "asked for")
+        self.assertEqual(told["surface"]["fit"]["smoothed_points"], 0)
+        self.assertGreater(told["surface"]["fit"]["points"], 0)
+        self.assertLess(told["surface"]["fit"]["error_after"], told["surface"]["fit"]["error_before"])
+        self.assertIn(b" fit=surface", files["surface"].read_bytes())
+        # What was chosen, and that it is what was written.
+        self.assertIn("samples show", told["auto"]["fit"]["reason"])
+        self.assertEqual(told["auto"]["choices"]["fit"]["reason"], told["auto"]["fit"]["reason"])
+        self.assertIn(b" fit=" + told["auto"]["choices"]["fit"]["value"].encode(), files["auto"].read_bytes())
 
     def test_the_surface_error_is_told_by_bake_info_and_compare(self):
         self.bake("--rays", "64", "--surface-error", "200", "--json", "bake.json")
