@@ -3,7 +3,7 @@
 # "program": cmake --install BUILD --component program
 include(GNUInstallDirs)
 set(SHBAKE_MODULE_DIR ${CMAKE_INSTALL_LIBDIR}/shbake)
-# Seen from the program's folder: light/module.h looks there.
+# Seen from the program's folder: base/module.h looks there.
 file(RELATIVE_PATH SHBAKE_MODULE_FOLDER /${CMAKE_INSTALL_BINDIR} /${SHBAKE_MODULE_DIR})
 
 # shbake_install_module(TARGET): a module that the program loads.

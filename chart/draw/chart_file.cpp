@@ -1,12 +1,9 @@
 // Charts as files.
 #include "chart/draw/chart_file.h"
 
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
-
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/file_name.h"
 #include "chart/draw/chart_json.h"
 #include "chart/draw/gnuplot.h"
 #include "chart/draw/gnuplot_script.h"
@@ -16,8 +13,7 @@
 namespace shbake::chart {
 
 ChartFormat chartFormatOf(const std::string& path) {
-  std::string end = std::filesystem::path(path).extension().string();
-  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string end = lowerExtension(path);
   if (end == ".html" || end == ".htm") return ChartFormat::html;
   if (end == ".svg") return ChartFormat::svg;
   if (end == ".png") return ChartFormat::png;

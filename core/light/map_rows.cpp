@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/module.h"
 #include "light/map_file_module.h"
-#include "light/module.h"
 
 namespace shbake {
 namespace {

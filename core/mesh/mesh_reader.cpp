@@ -1,11 +1,10 @@
 #include "mesh/mesh_reader.h"
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <string_view>
 
 #include "base/error.h"
+#include "base/file_name.h"
 #include "mesh/file_bytes.h"
 #include "mesh/obj_reader.h"
 #include "mesh/off_reader.h"
@@ -50,11 +49,9 @@ Reader readerOfContent(const FileStart& start) {
   return isObjKeyword(word) ? readObj : nullptr;
 }
 
-/// The ending of a file's name in lower case, without the dot.
+/// The extension of a file's name in lower case, without the dot.
 std::string extensionOf(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lowerExtension(path);
   return extension.empty() ? extension : extension.substr(1);
 }
 

@@ -1,14 +1,12 @@
 // Pictures to files, encoded by a module that is loaded for the first of them.
 #include "view/picture_file.h"
 
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <vector>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
-#include "light/module.h"
+#include "base/file_name.h"
+#include "base/module.h"
 #include "view/picture_module.h"
 #include "view/tone_map.h"
 
@@ -27,9 +25,7 @@ decltype(&shbakeEncodePicture) encoder(const std::string& path) {
 }  // namespace
 
 PictureFormat pictureFormatOf(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = lowerExtension(path);
   if (extension == ".png") return PictureFormat::png;
   if (extension == ".exr") return PictureFormat::exr;
   throw Error({.kind = ErrorKind::usage,

@@ -1,5 +1,5 @@
 // Finding and loading modules by the dynamic linker.
-#include "light/module.h"
+#include "base/module.h"
 
 #include <dlfcn.h>
 #include <link.h>
