@@ -20,14 +20,14 @@ struct Hit {
   std::uint16_t u, v;  ///< barycentric weights of corners 1 and 2 in units of 1/65535; corner 0 has the rest
 };
 
-/// Faces touching the ray's own position never count as hit: they are found by comparing welded position ids in a
-/// filter, not by an offset (Green 2003's exclusion rule). Nor do faces that the position lies on without sharing it
+/// Faces touching the ray's own position never count as hit: they are told by welded position ids (own_faces.h), not by
+/// an offset (Green 2003's exclusion rule). Nor do faces that the position lies on without sharing it
 /// (T-junctions, a box standing on the ground), up to contactDistance() from the position to the face's plane. Measured
 /// along the ray, it would be exceeded by grazing rays on one side and would lose near faces that are met head-on on
 /// the other. What both kinds block is for fan_test.h to tell.
 class RayScene {
  public:
-  /// Rays of one point, at most this many in a call.
+  /// Groups of rays in a call, at most.
   static constexpr int kMaxGroups = 64;
 
   /// Builds the BVH on the threads of `parallel`. `points` must outlive the scene: Embree traces its arrays in place.
