@@ -1,7 +1,9 @@
 // A chart as one page for browsers.
 #include "chart/draw/page.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <string_view>
 #include <utility>
 
@@ -24,7 +26,9 @@ figure { margin: 2rem 0; } figure svg { width: 100%; height: auto; display: bloc
 figcaption { font-size: .9rem; color: #555; }
 .table { overflow-x: auto; } table { border-collapse: collapse; font-size: .85rem; }
 th, td { padding: .25rem .6rem; text-align: right; border-bottom: 1px solid #ddd; white-space: nowrap; }
+th { white-space: normal; vertical-align: bottom; }
 th:first-child, td:first-child { text-align: left; }
+.words { text-align: left; white-space: normal; min-width: 14rem; }
 .advice { background: #f3f6f8; border-left: 4px solid #0072B2; padding: .5rem 1rem .5rem 2rem; }
 </style>
 </head>
@@ -61,12 +65,23 @@ void replaceAll(std::string& text, std::string_view what, const std::string& by)
   }
 }
 
+/// Whether a column behind the first has words in all its cells; such columns are not aligned like numbers.
+bool holdsWords(const Table& table, std::size_t column) {
+  const auto isWord = [&](const std::vector<std::string>& row) {
+    return column < row.size() && !row[column].empty() && std::isalpha(static_cast<unsigned char>(row[column][0])) != 0;
+  };
+  return column > 0 && std::all_of(table.rows.begin(), table.rows.end(), isWord);
+}
+
 std::string tableHtml(const Table& table) {
   std::string html = "<h2>" + escaped(table.title) + "</h2>\n<div class=\"table\"><table>\n";
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const std::string cell = r == 0 ? "th" : "td";
     html += "<tr>";
-    for (const std::string& text : table.rows[r]) html += "<" + cell + ">" + escaped(text) + "</" + cell + ">";
+    for (std::size_t c = 0; c < table.rows[r].size(); ++c) {
+      const std::string style = holdsWords(table, c) ? " class=\"words\"" : "";
+      html += "<" + cell + style + ">" + escaped(table.rows[r][c]) + "</" + cell + ">";
+    }
     html += "</tr>\n";
   }
   return html + "</table></div>\n";

@@ -98,6 +98,9 @@ class Chart(unittest.TestCase):
         tags.feed(page)
         self.assertEqual((tags.open, tags.faults), ([], []))
         self.assertGreaterEqual(tags.count["table"], 4)
+        # What a method is stands in words; numbers are aligned as such.
+        self.assertIn('<th class="words">what it is</th>', page)
+        self.assertNotRegex(page, r'class="words">[-0-9]')
 
     def test_wrong_usage_is_told_before_any_work(self):
         for arguments, words in ((["chart"], "no mesh"), (["chart", "box.obj"], "no output"),
