@@ -167,7 +167,7 @@ Mesh readAscii(const std::string& path, std::string_view text, Progress& progres
   for (std::size_t i = 0; i + 1 < starts.size(); ++i) {
     polygons.add({reader.corners().data() + starts[i], reader.corners().data() + starts[i + 1]});
   }
-  if (!reader.ended()) mesh.warnings.push_back("the file ends without endsolid and may be cut short");
+  if (!reader.ended()) mesh.warnings.emplace_back("the file ends without endsolid and may be cut short");
   mesh.doublePositions = positionsNeedDouble(mesh.positions);
   return mesh;
 }

@@ -6,3 +6,4 @@ add_library(shbake_test_shapes STATIC
   ${CMAKE_CURRENT_LIST_DIR}/transforms.cpp)
 target_link_libraries(shbake_test_shapes PUBLIC shbake_mesh)
 target_include_directories(shbake_test_shapes PUBLIC ${CMAKE_CURRENT_LIST_DIR}/..)
+target_precompile_headers(shbake_test_shapes REUSE_FROM shbake_base)
