@@ -114,7 +114,8 @@ class SurfaceStudier {
     refine.target = target;
     refine.maxVertices = static_cast<std::size_t>(std::min(most, double(kMostVertices)));
     const double start = cpuSeconds();
-    const AutoRefinement made = refineWhereLightChanges(mesh_, {}, {}, {}, bake_, refine, parallel_, polled_);
+    const ScenePoints scene = makeScenePoints(mesh_, {}, {}, {}, polled_);
+    const AutoRefinement made = refineWhereLightChanges(mesh_, {}, scene, {}, {}, bake_, refine, parallel_, polled_);
     const double cpu = cpuSeconds() - start;
     if (made.end == RefineEnd::budget) return false;
     if (grew(made.refined.mesh, SurfaceRefinement::automatic)) {

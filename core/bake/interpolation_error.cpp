@@ -1,5 +1,7 @@
 #include "bake/interpolation_error.h"
 
+#include <array>
+
 #include "bake/baker.h"
 #include "bake/direction_set.h"
 #include "bake/ray_scene.h"
@@ -13,10 +15,46 @@ namespace {
 /// The independent streams of random numbers.
 enum Stream : std::uint64_t { kFirstBake, kSecondBake, kFirstRays, kSecondRays };
 
+/// A bake of the marked points, with reflections.
 TransferSet bakeOnce(const LightingPoints& points, const std::vector<std::uint8_t>& corners, BakeOptions options,
                      Stream stream, const Parallel& parallel, Progress& progress) {
   options.seed = hashBits(options.seed, stream);
   return bakePoints(points, corners, options, parallel, progress).transfer;
+}
+
+/// The same without reflections, and without a ray scene of its own.
+TransferSet traceOnce(const LightingPoints& points, const std::vector<std::uint8_t>& corners, const RayScene& scene,
+                      const DirectionSet& directions, const BakeOptions& options, Stream stream,
+                      const Parallel& parallel, Progress& progress) {
+  TransferSet set;
+  set.order = options.order;
+  const auto count = static_cast<std::size_t>(set.coefficientsPerChannel());
+  const auto isColored = [&](const Rgb& a) { return a.x != a.y || a.y != a.z; };
+  for (std::size_t p = 0; p < corners.size(); ++p) {
+    if (corners[p] != 0 && isColored(points.pointAlbedo[p])) set.channels = 3;
+  }
+  set.coefficients.assign(corners.size() * set.stride(), 0);
+  std::vector<SurfaceTracer> tracers;
+  for (int i = 0; i < parallel.threads(); ++i) {
+    tracers.emplace_back(points, scene, directions, hashBits(options.seed, stream), options.twoSided, nullptr);
+  }
+  progress.begin("tracing", static_cast<double>(corners.size()), "points");
+  parallel.forBlocks(corners.size(), 256, [&](std::size_t begin, std::size_t end, int worker) {
+    const FlushDenormals flush;
+    std::vector<double> row(count);
+    for (std::size_t p = begin; p < end; ++p) {
+      if (corners[p] == 0) continue;
+      tracers[static_cast<std::size_t>(worker)].trace(static_cast<std::uint32_t>(p), row);
+      const Rgb& rho = points.pointAlbedo[p];
+      const std::array<float, 3> albedo{rho.x, rho.y, rho.z};
+      for (std::size_t i = 0; i < set.stride(); ++i) {
+        set.coefficients[p * set.stride() + i] = albedo[i / count] * static_cast<float>(row[i % count]);
+      }
+    }
+    progress.advance(static_cast<double>(end - begin));
+  });
+  progress.end();
+  return set;
 }
 
 }  // namespace
@@ -30,14 +68,20 @@ std::vector<double> interpolationSquares(LightingPoints points, std::span<const 
   for (const SurfacePlace& place : places) {
     for (const std::uint32_t p : points.facePoints[place.face]) corners[p] = 1;
   }
-  const TransferSet first = bakeOnce(points, corners, options, kFirstBake, parallel, progress);
-  const TransferSet second = bakeOnce(points, corners, options, kSecondBake, parallel, progress);
   const bool reflects = options.kind == TransferKind::interreflected && options.bounces != 0;
-
+  TransferSet first, second;
+  if (reflects) {
+    first = bakeOnce(points, corners, options, kFirstBake, parallel, progress);
+    second = bakeOnce(points, corners, options, kSecondBake, parallel, progress);
+  }
   const std::size_t firstPlace = points.size();
   addPlaces(points, places);
   const RayScene scene(points, static_cast<float>(options.maxDistance * points.frame.scale), parallel, progress);
   const DirectionSet directions(options.rays, options.order);
+  if (!reflects) {
+    first = traceOnce(points, corners, scene, directions, options, kFirstBake, parallel, progress);
+    second = traceOnce(points, corners, scene, directions, options, kSecondBake, parallel, progress);
+  }
   std::vector<SurfaceTracer> ones, others;
   for (int i = 0; i < parallel.threads(); ++i) {
     const auto tracer = [&](Stream stream, const TransferSet& baked) {

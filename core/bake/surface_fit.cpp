@@ -22,6 +22,12 @@ namespace {
 /// Samples of the pilot: errors that gather in a few spots, as contact shadows do, are seen by a few of 512, and a gain
 /// of a tenth is then not significant.
 constexpr std::size_t kPilotSamples = 2048;
+/// On small meshes that is more work than the bake. A glance for this share of the bake's rays comes first, with
+/// samples enough to tell at all: it ends the matter where interpolation is surely good enough. Few samples of many
+/// rays show that best, for the noise of a squared error falls faster with the rays than with the samples.
+constexpr double kGlanceShare = 0.05;
+constexpr double kLeastGlance = 64;
+constexpr int kGlanceRayShare = 2;
 /// Samples that judge a fit, for each lighting point, and the most of them.
 constexpr double kJudgeShare = 0.25;
 constexpr std::size_t kMostJudges = 16384;
@@ -39,7 +45,7 @@ constexpr double kRounding = 1e-6;
 constexpr std::size_t kBatch = 1 << 20;
 constexpr double kConfidence = 1.959963984540054;
 /// The independent streams of random numbers, apart from those that measure the surface error.
-enum Stream : std::uint64_t { kPilot = 16, kJudges = 20, kFitPlaces = 24, kFirstBatch };
+enum Stream : std::uint64_t { kGlance = 12, kPilot = 16, kJudges = 20, kFitPlaces = 24, kFirstBatch };
 
 std::size_t roundedToEven(double count) {
   return 2 * static_cast<std::size_t>(std::ceil(count / 2));
@@ -65,15 +71,20 @@ class SurfaceFitter {
     countFaces();
     if (measuredPoints_ == 0) return stop("no face has an area and reflects light");
     PlaceTracer tracer(points_, baked_, findSenders(), bake_, parallel_, progress_);
-    HeldOutSamples held = holdOut(tracer, kPilotSamples, kPilot);
-    const double before = held.squaredError(baked_.coefficients).mean;
+    HeldOutSamples held =
+        options_.kind == FitKind::automatic ? glance(tracer) : holdOut(tracer, kPilotSamples, rays_, kPilot);
+    SampledMean before = held.squaredError(baked_.coefficients);
+    if (report_.heldOut < kPilotSamples && !whyUseless(before.mean + kConfidence * before.error, held)) {
+      held = holdOut(tracer, kPilotSamples, rays_, kPilot);
+      before = held.squaredError(baked_.coefficients);
+    }
     if (options_.kind == FitKind::automatic) smooth(held);
-    if (const char* useless = whyUseless(before, held)) {
+    if (const char* useless = whyUseless(before.mean, held)) {
       report_.reason = useless;
     } else {
       const std::size_t judges =
           std::min(kMostJudges, roundedToEven(kJudgeShare * static_cast<double>(measuredPoints_)));
-      if (judges > kPilotSamples) held = holdOut(tracer, judges, kJudges);
+      if (judges > kPilotSamples) held = holdOut(tracer, judges, rays_, kJudges);
       fit(tracer, held);
     }
     report_.before = rootOf(held.squaredError(baked_.coefficients));
@@ -125,10 +136,18 @@ class SurfaceFitter {
 
   std::uint64_t seed(std::uint64_t stream) const { return hashBits(bake_.seed, stream); }
 
+  HeldOutSamples glance(PlaceTracer& tracer) {
+    const int rays = std::max(rays_, std::min(bake_.rays / kGlanceRayShare, kMostRays));
+    const double affordable = kGlanceShare * static_cast<double>(measuredPoints_) * bake_.rays / (2.0 * rays);
+    const double count = std::max(kLeastGlance, affordable);
+    if (count >= static_cast<double>(kPilotSamples)) return holdOut(tracer, kPilotSamples, rays_, kPilot);
+    return holdOut(tracer, roundedToEven(count), rays, kGlance);
+  }
+
   /// Places that have no part in the fit, each traced twice.
-  HeldOutSamples holdOut(PlaceTracer& tracer, std::size_t count, std::uint64_t stream) {
+  HeldOutSamples holdOut(PlaceTracer& tracer, std::size_t count, int rays, std::uint64_t stream) {
     std::vector<SurfacePlace> places = drawPlaces(points_, areas_, count, seed(stream), progress_);
-    PlaceTransfers traced = tracer.trace(places, rays_, std::array{seed(stream + 1), seed(stream + 2)});
+    PlaceTransfers traced = tracer.trace(places, rays, std::array{seed(stream + 1), seed(stream + 2)});
     report_.heldOut = places.size();
     return HeldOutSamples(points_, std::move(places), std::move(traced), stride_);
   }

@@ -64,8 +64,9 @@ struct FitReport {
 /// and visibility stay those of the points as they were traced: a fitted value is off from the transfer at the vertex
 /// on purpose, and `after` says how well it does.
 ///   vertex: nothing is done. automatic: a pilot measures the surface error, tries smoothing (smoothing.h), and stops
-///   where interpolation errs less than the noise of the rays; else values are fitted, and each region takes as much of
-///   the fit as the pilot's samples show to help. surface: values are fitted everywhere, unasked.
+///   where interpolation errs less than the noise of the rays, on small meshes at a glance; else values are fitted, and
+///   each region takes as much of the fit as the pilot's samples show to help. surface: values are fitted everywhere,
+///   unasked.
 /// Unshadowed transfer stays as it is. Deterministic: depends on points, options and seed only. Memory: about 16 bytes
 /// for each coefficient of the result, 600 a point, and for each sample in a batch of at most a million 150 and one row
 /// of the result, beside the ray scene; `bake.memory` changes nothing. Throws as bakePoints(), and leaves `baked` as it

@@ -73,9 +73,9 @@ class LineFinder {
   }
 
   Box boxOf(std::uint32_t face) const {
-    const FaceShape shape(mesh_, face);
-    const auto& [a, b, c] = shape.corners;
-    const double margin = kPlaneUlps * shape.ulp;
+    const Triangle& t = mesh_.triangles[face];
+    const Vec3d &a = mesh_.positions[t[0]], &b = mesh_.positions[t[1]], &c = mesh_.positions[t[2]];
+    const double margin = kPlaneUlps * coordinateUlp(mesh_, std::max({magnitudeOf(a), magnitudeOf(b), magnitudeOf(c)}));
     const Vec3d by(margin, margin, margin);
     return {Vec3d(std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})) - by,
             Vec3d(std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})) + by};

@@ -60,14 +60,14 @@ FlatParts findFlatParts(const Mesh& mesh, const FlatOptions& options, Progress& 
   parts.edges = edgeTableOf(mesh, passes);
   passes.end();
   parts.regions = findFlatRegions(mesh, parts.edges, options, progress);
-  if (parts.regions.count == 0) {
-    parts.edges = {};
-    return parts;
-  }
+  return parts;
+}
+
+void addPatches(FlatParts& parts, const Mesh& mesh, Progress& progress) {
+  if (parts.regions.count == 0) return;
   parts.patches = findFlatPatches(mesh, parts.edges, parts.regions, progress);
   parts.contacts = findContactLines(mesh, parts.edges, parts.patches, progress);
   parts.rowOffset = rowOffsetOf(mesh, progress);
-  return parts;
 }
 
 }  // namespace shbake

@@ -14,8 +14,9 @@
 namespace shbake {
 
 struct FlatParts {
-  EdgeTable edges;  ///< of the whole mesh; empty where nothing is flat
+  EdgeTable edges;  ///< of the whole mesh
   FlatRegions regions;
+  // What addPatches() finds:
   FlatPatches patches;
   ContactLines contacts;  ///< of the patches
   double rowOffset = 0;   ///< what rows of vertices along these keep from them, in file units
@@ -24,7 +25,11 @@ struct FlatParts {
   std::vector<bool> regionsInContact() const;
 };
 
-/// Throws an Error for indices or positions that are not valid, and what findFlatRegions() throws.
+/// Finds edges and regions. Throws an Error for indices or positions that are not valid, and what findFlatRegions()
+/// throws.
 FlatParts findFlatParts(const Mesh& mesh, const FlatOptions& options, Progress& progress);
+
+/// Finds all else, of the same mesh.
+void addPatches(FlatParts& parts, const Mesh& mesh, Progress& progress);
 
 }  // namespace shbake

@@ -61,7 +61,7 @@ class RegionFinder {
   void measureFaces();
   void grow();
   void growFrom(std::uint32_t seed);
-  bool liesIn(std::uint32_t face, const Vec3d& normal, const Vec3d& origin, double ulp) const;
+  bool liesIn(std::uint32_t face, std::uint32_t seed, const Vec3d& normal, const Vec3d& origin) const;
   void judge();
   void judgeEdge(std::span<const FaceSide> sides, std::vector<bool>& onBorder);
   bool isRounded(FaceSide s, FaceSide t) const;
@@ -109,8 +109,7 @@ void RegionFinder::grow() {
 
 void RegionFinder::growFrom(std::uint32_t seed) {
   const auto region = static_cast<std::uint32_t>(evidence_.size());
-  const FaceShape plane(mesh_, seed);
-  const Vec3d normal = normals_[seed];
+  const Vec3d normal = normals_[seed], origin = mesh_.positions[mesh_.triangles[seed][0]];
   Evidence evidence;
   regions_.ofFace[seed] = region;
   front_.assign(1, seed);
@@ -123,7 +122,7 @@ void RegionFinder::growFrom(std::uint32_t seed) {
     for (std::uint32_t c = 0; c < 3; ++c) {
       const std::uint32_t side = edges_.across({3 * f + c});
       if (side == kNone || regions_.ofFace[side / 3] != kNone) continue;
-      if (!liesIn(side / 3, normal, plane.corners[0], plane.ulp)) continue;
+      if (!liesIn(side / 3, seed, normal, origin)) continue;
       regions_.ofFace[side / 3] = region;
       front_.push_back(side / 3);
     }
@@ -131,15 +130,18 @@ void RegionFinder::growFrom(std::uint32_t seed) {
   evidence_.push_back(evidence);
 }
 
-/// The face is within the angle of the plane; or within rounding of it, which may turn thin faces by more.
-bool RegionFinder::liesIn(std::uint32_t face, const Vec3d& normal, const Vec3d& origin, double ulp) const {
+/// The face is within the angle of the seed's plane; or within rounding of it, which may turn thin faces by more.
+bool RegionFinder::liesIn(std::uint32_t face, std::uint32_t seed, const Vec3d& normal, const Vec3d& origin) const {
   if (!hasPlane(face)) return false;
   if (chordSquared(normal, normals_[face]) <= flat_) return true;
   if (dot(normal, normals_[face]) <= 0) return false;
-  const FaceShape shape(mesh_, face);
-  const double most = kPlaneUlps * std::max(ulp, shape.ulp);
-  return std::all_of(shape.corners.begin(), shape.corners.end(),
-                     [&](const Vec3d& p) { return std::abs(dot(normal, p - origin)) <= most; });
+  double magnitude = 0, farthest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d& p = mesh_.positions[mesh_.triangles[face][k]];
+    magnitude = std::max({magnitude, magnitudeOf(p), magnitudeOf(mesh_.positions[mesh_.triangles[seed][k]])});
+    farthest = std::max(farthest, std::abs(dot(normal, p - origin)));
+  }
+  return farthest <= kPlaneUlps * coordinateUlp(mesh_, magnitude);
 }
 
 void RegionFinder::judge() {

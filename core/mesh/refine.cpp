@@ -321,7 +321,8 @@ RefinedMesh refineFlatParts(const Mesh& mesh, const FlatParts& parts, std::size_
 
 RefinedMesh refineFlatRegions(const Mesh& mesh, const RefineOptions& options, const EdgeLength& length,
                               const Parallel& parallel, Progress& progress) {
-  const FlatParts parts = findFlatParts(mesh, {options.flatDegrees, options.creaseDegrees}, progress);
+  FlatParts parts = findFlatParts(mesh, {options.flatDegrees, options.creaseDegrees}, progress);
+  addPatches(parts, mesh, progress);
   return refineFlatParts(mesh, parts, options.maxVertices, length, parallel, progress);
 }
 

@@ -64,7 +64,7 @@ struct RefinedMesh {
 RefinedMesh refineFlatRegions(const Mesh& mesh, const RefineOptions& options, const EdgeLength& length,
                               const Parallel& parallel, Progress& progress);
 
-/// The same where the flat parts are known: of `mesh`, by findFlatParts(). Throws the rest.
+/// The same where the flat parts of `mesh` are known, by findFlatParts() and addPatches(). Throws the rest.
 RefinedMesh refineFlatParts(const Mesh& mesh, const FlatParts& parts, std::size_t maxVertices, const EdgeLength& length,
                             const Parallel& parallel, Progress& progress);
 

@@ -78,10 +78,21 @@ class AutoBaker {
 
   /// What the scene as a whole decides: the kind of transfer, and the order under the light that was named.
   void chooseForScene() {
-    if (!choose_.transfer && !choose_.light) return;
-    const ScenePoints scene = makeScenePoints(mesh_, blockers_, options_.points, options_.albedo, progress_);
-    if (choose_.transfer) chooseTransfer(scene.points);
-    if (choose_.light) chooseBands(scene.points);
+    if (choose_.transfer) chooseTransfer(scene().points);
+    if (choose_.light) chooseBands(scene().points);
+  }
+
+  /// The lighting points of the mesh as it was given.
+  const ScenePoints& scene() {
+    if (!scene_) scene_ = makeScenePoints(mesh_, blockers_, options_.points, options_.albedo, progress_);
+    return *scene_;
+  }
+  /// The same to the last one who needs it: a large mesh has it in memory once.
+  ScenePoints takeScene() {
+    scene();
+    ScenePoints taken = std::move(*scene_);
+    scene_.reset();
+    return taken;
   }
 
   void chooseTransfer(const LightingPoints& points) {
@@ -142,7 +153,13 @@ class AutoBaker {
   void bakeOnce(double aim) {
     refine(aim);
     if (choose_.tolerance) chooseNoise(aim);
-    result_.baked = bakeMesh(refined_ ? refined_->refined.mesh : mesh_, blockers_, options_, parallel_, progress_);
+    const bool isAsGiven = !refined_ || refined_->refined.mesh.positions.size() == mesh_.positions.size();
+    if (isAsGiven) {
+      result_.baked = bakeMesh(mesh_, blockers_.size(), takeScene(), options_, parallel_, progress_);
+    } else {
+      scene_.reset();
+      result_.baked = bakeMesh(refined_->refined.mesh, blockers_, options_, parallel_, progress_);
+    }
   }
 
   void refine(double aim) {
@@ -158,8 +175,8 @@ class AutoBaker {
     refine.target = std::clamp(kInterpolationShare * aim / left().missed, 1e-4, 1.0);
     refine.flatDegrees = refinement.flatDegrees;
     refine.maxVertices = refinement.maxVertices;
-    refined_ = refineWhereLightChanges(mesh_, blockers_, options_.points, options_.albedo, options_.bake, refine,
-                                       parallel_, progress_);
+    refined_ = refineWhereLightChanges(mesh_, blockers_, scene(), options_.points, options_.albedo, options_.bake,
+                                       refine, parallel_, progress_);
   }
 
   /// The error that vertices may have, beside what interpolation is known to miss.
@@ -267,6 +284,7 @@ class AutoBaker {
   const Parallel& parallel_;
   Progress& progress_;
   bool openRays_;
+  std::optional<ScenePoints> scene_;  // see scene()
   std::optional<AutoRefinement> refined_;
   AutoBake result_;
 };
@@ -279,9 +297,7 @@ AutoBake autoBake(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshOp
     throw usageError("the surface error to reach, " + std::to_string(*choose.tolerance) + ", is out of range",
                      "use 0.0001 to 1");
   }
-  if (mesh.triangles.empty()) {
-    throw Error({.file = mesh.source, .cause = "the mesh has no faces", .remedy = "light is baked for surfaces only"});
-  }
+  validate(mesh, options);
   return AutoBaker(mesh, blockers, options, choose, parallel, progress).run();
 }
 

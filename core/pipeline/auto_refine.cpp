@@ -68,6 +68,12 @@ double longestEdge(const Mesh& mesh, std::uint32_t face) {
   return longest;
 }
 
+double areaOf(const Mesh& mesh, std::uint32_t face) {
+  const Triangle& t = mesh.triangles[face];
+  const Vec3d& a = mesh.positions[t[0]];
+  return length(cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a)) / 2;
+}
+
 Vec3d middleOf(const Mesh& mesh, std::uint32_t face) {
   const Triangle& t = mesh.triangles[face];
   return (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) * (1.0 / 3);
@@ -96,11 +102,12 @@ LengthField fieldAround(const Mesh& mesh) {
 
 class AutoRefiner {
  public:
-  AutoRefiner(const Mesh& mesh, const std::vector<Mesh>& blockers, const LightingPointOptions& points,
-              const AlbedoOptions& albedo, const BakeOptions& bake, const AutoRefineOptions& options,
-              const Parallel& parallel, Progress& progress)
+  AutoRefiner(const Mesh& mesh, const std::vector<Mesh>& blockers, const ScenePoints& scene,
+              const LightingPointOptions& points, const AlbedoOptions& albedo, const BakeOptions& bake,
+              const AutoRefineOptions& options, const Parallel& parallel, Progress& progress)
       : mesh_(mesh),
         blockers_(blockers),
+        scene_(scene),
         pointOptions_(points),
         albedo_(albedo),
         probe_(bake),
@@ -125,6 +132,7 @@ class AutoRefiner {
       result_.end = RefineEnd::flatFine;
       return std::move(result_);
     }
+    addPatches(parts_, mesh_, progress_);
     int idle = 0;
     double last = 0;
     for (;;) {
@@ -165,22 +173,28 @@ class AutoRefiner {
   /// A scan has some faces that happen to be flat. Places on them alone need the light of their corners alone, as long
   /// as reflections are left out: that costs next to nothing where judging the whole mesh costs half a bake.
   bool flatPartsMatter() {
-    ScenePoints scene = makeScenePoints(mesh_, blockers_, pointOptions_, albedo_, progress_);
-    std::vector<double> areas = areaWeights(scene.points, mesh_.triangles.size());
-    const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
+    double flat = 0, area = 0;
+    for (std::uint32_t f = 0; f < mesh_.triangles.size(); ++f) {
+      const double own = areaOf(mesh_, f);
+      area += own;
+      if (parts_.regions.ofFace[f] != FlatRegions::kNone) flat += own;
+    }
+    if (flat > kFewFlat * area) return true;
+    // Transfer is between nothing and all: no place misses more than all of it.
+    const double most = kGlanceShare * options_.target * options_.target;
+    if (flat <= most * area) return false;
+    std::vector<double> areas = areaWeights(scene_.points, mesh_.triangles.size());
     for (std::uint32_t f = 0; f < areas.size(); ++f) {
       if (parts_.regions.ofFace[f] == FlatRegions::kNone) areas[f] = 0;
     }
-    const double flat = std::accumulate(areas.begin(), areas.end(), 0.0);
-    if (flat == 0 || flat > kFewFlat * area) return flat > 0;
+    if (std::accumulate(areas.begin(), areas.end(), 0.0) == 0) return false;
     BakeOptions direct = probe_;
     direct.kind = TransferKind::shadowed;
     const std::vector<SurfacePlace> places =
-        drawPlaces(scene.points, areas, kGlancePlaces, hashBits(probe_.seed, kGlance), progress_);
-    const std::vector<double> squares =
-        interpolationSquares(std::move(scene.points), places, direct, parallel_, progress_);
+        drawPlaces(scene_.points, areas, kGlancePlaces, hashBits(probe_.seed, kGlance), progress_);
+    const std::vector<double> squares = interpolationSquares(scene_.points, places, direct, parallel_, progress_);
     const double mean = std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(squares.size());
-    return flat / area * mean > kGlanceShare * options_.target * options_.target;
+    return flat / area * mean > most;
   }
 
   /// How many places each face shall have, on average.
@@ -209,7 +223,8 @@ class AutoRefiner {
   /// Measures the error of interpolation on the present mesh: its flat and curved part, and where the flat one is.
   void probe() {
     const Mesh& mesh = result_.refined.mesh;
-    ScenePoints scene = makeScenePoints(mesh, blockers_, pointOptions_, albedo_, progress_);
+    ScenePoints scene =
+        result_.rounds == 0 ? scene_ : makeScenePoints(mesh, blockers_, pointOptions_, albedo_, progress_);
     const std::vector<double> areas = areaWeights(scene.points, mesh.triangles.size());
     const std::vector<double> wanted = placesWanted(areas);
     const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
@@ -289,6 +304,7 @@ class AutoRefiner {
 
   const Mesh& mesh_;
   const std::vector<Mesh>& blockers_;
+  const ScenePoints& scene_;
   const LightingPointOptions& pointOptions_;
   const AlbedoOptions& albedo_;
   BakeOptions probe_;
@@ -306,7 +322,7 @@ class AutoRefiner {
 
 }  // namespace
 
-AutoRefinement refineWhereLightChanges(const Mesh& mesh, const std::vector<Mesh>& blockers,
+AutoRefinement refineWhereLightChanges(const Mesh& mesh, const std::vector<Mesh>& blockers, const ScenePoints& scene,
                                        const LightingPointOptions& points, const AlbedoOptions& albedo,
                                        const BakeOptions& bake, const AutoRefineOptions& options,
                                        const Parallel& parallel, Progress& progress) {
@@ -315,7 +331,7 @@ AutoRefinement refineWhereLightChanges(const Mesh& mesh, const std::vector<Mesh>
                      "use 0.0001 to 1");
   }
   validate(bake);
-  return AutoRefiner(mesh, blockers, points, albedo, bake, options, parallel, progress).run();
+  return AutoRefiner(mesh, blockers, scene, points, albedo, bake, options, parallel, progress).run();
 }
 
 }  // namespace shbake

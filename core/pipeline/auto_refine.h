@@ -12,6 +12,7 @@
 #include "mesh/lighting_points.h"
 #include "mesh/refine.h"
 #include "pipeline/albedo.h"
+#include "pipeline/scene_points.h"
 
 namespace shbake {
 
@@ -49,9 +50,10 @@ struct AutoRefinement {
 /// flat regions can mend it. Each round draws places on the surface, measures there what interpolation misses
 /// (bake/interpolation_error.h), and asks for finer edges around the places that miss most, as few as lower the error
 /// enough (Doerfler 1996, "A convergent adaptive algorithm for Poisson's equation": the smallest set with a fixed share
-/// of the error). `bake` has the options of the bake to come, but for its number of rays.
-/// Throws as refineFlatRegions() and bakePoints(), and a usage error when the target is out of range.
-AutoRefinement refineWhereLightChanges(const Mesh& mesh, const std::vector<Mesh>& blockers,
+/// of the error). `scene` is what makeScenePoints() made of mesh and blockers; `bake` has the options of the bake to
+/// come, but for its number of rays. Throws as refineFlatRegions() and bakePoints(), and a usage error when the target
+/// is out of range.
+AutoRefinement refineWhereLightChanges(const Mesh& mesh, const std::vector<Mesh>& blockers, const ScenePoints& scene,
                                        const LightingPointOptions& points, const AlbedoOptions& albedo,
                                        const BakeOptions& bake, const AutoRefineOptions& options,
                                        const Parallel& parallel, Progress& progress);

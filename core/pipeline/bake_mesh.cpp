@@ -140,8 +140,7 @@ void warn(BakedMesh& result, const PointBake& baked, const LightingPoints& point
 
 }  // namespace
 
-BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshOptions& options,
-                   const Parallel& parallel, Progress& progress) {
+void validate(const Mesh& mesh, const BakeMeshOptions& options) {
   validate(options.bake);
   validate(options.fit);
   if (options.surfaceSamples > 0) validate(SurfaceErrorOptions{options.surfaceSamples});
@@ -149,11 +148,20 @@ BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshO
   if (mesh.triangles.empty()) {
     throw Error({.file = mesh.source, .cause = "the mesh has no faces", .remedy = "light is baked for surfaces only"});
   }
-  BakedMesh result;
+}
 
-  // Lighting points of everything that takes part in the transport of light.
-  const std::size_t vertices = mesh.positions.size();
+BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshOptions& options,
+                   const Parallel& parallel, Progress& progress) {
+  validate(mesh, options);
   ScenePoints scene = makeScenePoints(mesh, blockers, options.points, options.albedo, progress);
+  return bakeMesh(std::move(mesh), blockers.size(), std::move(scene), options, parallel, progress);
+}
+
+BakedMesh bakeMesh(Mesh mesh, std::size_t blockers, ScenePoints scene, const BakeMeshOptions& options,
+                   const Parallel& parallel, Progress& progress) {
+  validate(mesh, options);
+  BakedMesh result;
+  const std::size_t vertices = mesh.positions.size();
   LightingPoints& points = scene.points;
   result.albedoNote = scene.albedo.note;
   result.warnings = mesh.warnings;
@@ -178,7 +186,7 @@ BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshO
   result.facts.albedo = describe(scene.albedo.albedo, options.albedo);
   result.facts.lightingPoints = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 1));
   result.facts.sourceVertices = vertices;
-  result.facts.blockers = blockers.size();
+  result.facts.blockers = blockers;
   result.facts.source = std::filesystem::path(mesh.source).filename().string();
   warn(result, baked, points, outputs, options.bake);
   setNormals(mesh, points, outputs);

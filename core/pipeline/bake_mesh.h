@@ -13,6 +13,7 @@
 #include "mesh/lighting_points.h"
 #include "mesh/mesh.h"
 #include "pipeline/albedo.h"
+#include "pipeline/scene_points.h"
 #include "transfer/transfer_set.h"
 
 namespace shbake {
@@ -42,5 +43,13 @@ struct BakedMesh {
 /// Throws Error: usage for options out of range, work for meshes without faces or too little memory, cancelled.
 BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshOptions& options,
                    const Parallel& parallel, Progress& progress);
+
+/// The same where the lighting points are there: `scene` is what makeScenePoints() made of `mesh` and so many blockers,
+/// with the same options.
+BakedMesh bakeMesh(Mesh mesh, std::size_t blockers, ScenePoints scene, const BakeMeshOptions& options,
+                   const Parallel& parallel, Progress& progress);
+
+/// Throws a usage error for options out of range, a work error for a mesh without faces.
+void validate(const Mesh& mesh, const BakeMeshOptions& options);
 
 }  // namespace shbake

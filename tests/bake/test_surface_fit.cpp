@@ -120,7 +120,7 @@ TEST_CASE("the fit finds the best values of a floor and a wall", "[surface_fit]"
   CHECK((fitted.report.after.low < std::sqrt(fit) && std::sqrt(fit) < fitted.report.after.high));
 }
 
-TEST_CASE("what interpolates exactly is left alone, at the cost of a pilot", "[surface_fit]") {
+TEST_CASE("what interpolates exactly is left alone, at the cost of a glance", "[surface_fit]") {
   LightingPointOptions flat;
   flat.normals = NormalSource::flat;
   for (const Mesh& solid : shapes::convexSolids()) {
@@ -130,7 +130,7 @@ TEST_CASE("what interpolates exactly is left alone, at the cost of a pilot", "[s
     CHECK(sameBits(fitted.before.coefficients, fitted.after.coefficients));
     CHECK(fitted.report.reason == "interpolation between the vertices is exact");
     CHECK(fitted.report.samples == 0);
-    CHECK(fitted.report.rays == 2048 * 2 * 32);
+    CHECK(fitted.report.rays == std::max(64 * 2 * 32.0, 2 * 32 * std::ceil(0.05 * double(points.size()) / 2) * 2));
     CHECK(fitted.report.after.rms < 1e-6);
   }
 }

@@ -13,7 +13,8 @@ namespace {
 /// The lines on the patch of the first face.
 std::vector<Polyline> linesOnFirst(const Mesh& mesh) {
   Progress progress;
-  const FlatParts parts = findFlatParts(mesh, {}, progress);
+  FlatParts parts = findFlatParts(mesh, {}, progress);
+  addPatches(parts, mesh, progress);
   REQUIRE(parts.patches.ofFace[0] != FlatPatches::kNone);
   CHECK(parts.contacts.starts.size() == parts.patches.size() + 1);
   const auto first = parts.contacts[parts.patches.ofFace[0]];

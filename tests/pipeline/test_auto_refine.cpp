@@ -26,7 +26,8 @@ AutoRefinement refine(const Mesh& mesh, double target, const BakeOptions& bake =
   AutoRefineOptions options;
   options.target = target;
   options.maxVertices = maxVertices;
-  return refineWhereLightChanges(mesh, {}, {}, {}, bake, options, parallel, progress);
+  const ScenePoints scene = makeScenePoints(mesh, {}, {}, {}, progress);
+  return refineWhereLightChanges(mesh, {}, scene, {}, {}, bake, options, parallel, progress);
 }
 
 /// The surface error of a bake of so many rays that interpolation rules.
@@ -191,10 +192,12 @@ TEST_CASE("refinement does not depend on threads, and stops when asked", "[auto_
   const Parallel parallel(2);
   AutoRefineOptions options;
   options.target = 0.05;
+  Progress unwatched;
+  const ScenePoints scene = makeScenePoints(mesh, {}, {}, {}, unwatched);
   int reports = 0;
   Progress progress([&](const ProgressState&) { return ++reports < 20; }, Progress::Duration(0));
   try {
-    refineWhereLightChanges(mesh, {}, {}, {}, shadowed(), options, parallel, progress);
+    refineWhereLightChanges(mesh, {}, scene, {}, {}, shadowed(), options, parallel, progress);
     FAIL("it was not stopped");
   } catch (const Error& e) {
     CHECK(e.kind() == ErrorKind::cancelled);
