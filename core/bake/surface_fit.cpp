@@ -26,8 +26,7 @@ constexpr std::size_t kPilotSamples = 2048;
 /// samples enough to tell at all: it ends the matter where interpolation is surely good enough. Few samples of many
 /// rays show that best, for the noise of a squared error falls faster with the rays than with the samples.
 constexpr double kGlanceShare = 0.05;
-constexpr double kLeastGlance = 64;
-constexpr int kGlanceRayShare = 2;
+constexpr double kLeastGlance = 32;
 /// Samples that judge a fit, for each lighting point, and the most of them.
 constexpr double kJudgeShare = 0.25;
 constexpr std::size_t kMostJudges = 16384;
@@ -137,7 +136,7 @@ class SurfaceFitter {
   std::uint64_t seed(std::uint64_t stream) const { return hashBits(bake_.seed, stream); }
 
   HeldOutSamples glance(PlaceTracer& tracer) {
-    const int rays = std::max(rays_, std::min(bake_.rays / kGlanceRayShare, kMostRays));
+    const int rays = std::max(rays_, std::min(bake_.rays, kMostRays));
     const double affordable = kGlanceShare * static_cast<double>(measuredPoints_) * bake_.rays / (2.0 * rays);
     const double count = std::max(kLeastGlance, affordable);
     if (count >= static_cast<double>(kPilotSamples)) return holdOut(tracer, kPilotSamples, rays_, kPilot);

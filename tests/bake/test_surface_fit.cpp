@@ -130,7 +130,7 @@ TEST_CASE("what interpolates exactly is left alone, at the cost of a glance", "[
     CHECK(sameBits(fitted.before.coefficients, fitted.after.coefficients));
     CHECK(fitted.report.reason == "interpolation between the vertices is exact");
     CHECK(fitted.report.samples == 0);
-    CHECK(fitted.report.rays == std::max(64 * 2 * 32.0, 2 * 32 * std::ceil(0.05 * double(points.size()) / 2) * 2));
+    CHECK(fitted.report.rays == std::max(32 * 2 * 64.0, 2 * 64 * std::ceil(0.05 / 2 * double(points.size()) / 2) * 2));
     CHECK(fitted.report.after.rms < 1e-6);
   }
 }
