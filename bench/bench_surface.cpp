@@ -25,8 +25,8 @@ struct Options {
   std::vector<double> tolerances{0.1, 0.05, 0.02};
   std::vector<std::string> transfers{"shadowed", "interreflected"};
   std::vector<std::string> tables{"methods", "tolerances"};
-  double methodTolerance = 0.05;  // of the methods that have one
-  int methodRays = 256;           // of the fit, which has none
+  double methodShare = 0.3;  // of the error of point sampling: the tolerance of the methods that have one
+  int methodRays = 256;      // of that point sampling, and of the fit
   int order = 4;
   std::size_t samples = 16384, sweepSamples = 4096;
   int truthRays = 256;  // each of the two sets of a sample has four times as many
@@ -38,6 +38,8 @@ struct Options {
 /// The seed of what judges; no bake here has it.
 constexpr std::uint64_t kJudge = 0x5EED;
 constexpr int kLeastRays = 16, kMostRays = 4096;
+/// Methods are told no lower tolerance: below, all that counts on smooth meshes is the number of rays.
+constexpr double kLeastTolerance = 0.003;
 /// Twice the rays that lower the error by less than this share: what is left lies between the vertices.
 constexpr double kFlatOut = 0.03;
 
@@ -87,10 +89,13 @@ class SurfaceBench {
 
   void methodsRow() {
     measurePointTime();
+    const double ofPoints = bakeByHand(0, options_.methodRays, FitKind::vertex).error.rms;
+    const double tolerance = std::max(kLeastTolerance, options_.methodShare * ofPoints);
     const Trial fit = bakeByHand(0, options_.methodRays, FitKind::automatic);
-    const Trial refined = bakeTo(options_.methodTolerance, FitKind::vertex);
-    const Trial chosen = bakeTo(options_.methodTolerance, FitKind::automatic);
-    std::printf("%-24s %-14s %8zu |", label_.c_str(), transferName(kind_), mesh_.positions.size());
+    const Trial refined = bakeTo(tolerance, FitKind::vertex);
+    const Trial chosen = bakeTo(tolerance, FitKind::automatic);
+    std::printf("%-24s %-14s %8zu %6.2f |", label_.c_str(), transferName(kind_), mesh_.positions.size(),
+                100 * tolerance);
     for (const Trial* method : {&fit, &refined, &chosen}) {
       const Trial points = pointsIn(method->seconds);
       std::printf(" %7.3f %7.3f %7.2fs %5.2f |", 100 * points.error.rms, 100 * method->error.rms, method->seconds,
@@ -273,10 +278,12 @@ void run(const Options& o) {
   if (has("methods")) {
     std::printf(
         "order %d; error in %% between the vertices of point sampling and of the method in the same CPU time, "
-        "that time, and their ratio\nfit: auto at %d rays; refined, auto: to %g %%\n",
-        o.order, o.methodRays, 100 * o.methodTolerance);
-    std::printf("%-24s %-14s %8s | %-30s | %-30s | %-30s |\n", "mesh", "transfer", "vertices", "fit", "refined",
-                "auto");
+        "that time, and their ratio\nfit: auto at %d rays; refined, auto: to a tolerance E of %g of the error of "
+        "points "
+        "with as many\n",
+        o.order, o.methodRays, o.methodShare);
+    std::printf("%-24s %-14s %8s %6s | %-30s | %-30s | %-30s |\n", "mesh", "transfer", "vertices", "E %", "fit",
+                "refined", "auto");
     each([](SurfaceBench& bench) { bench.methodsRow(); });
   }
   if (has("tolerances")) {
@@ -304,7 +311,8 @@ int main(int argc, char** argv) {
   list(app.add_option("--transfers", o.transfers, "shadowed, interreflected")
            ->check(CLI::IsMember({"shadowed", "interreflected"})));
   list(app.add_option("--tolerances", o.tolerances, "surface errors to reach"));
-  app.add_option("--method-tolerance", o.methodTolerance, "surface error of the methods that are told one");
+  app.add_option("--method-share", o.methodShare,
+                 "tolerance of the methods that are told one, as a share of the error of point sampling");
   app.add_option("--method-rays", o.methodRays, "rays a vertex of the fit");
   app.add_option("--order", o.order, "SH bands");
   app.add_option("--samples", o.samples, "places where errors are measured, an even number");

@@ -9,33 +9,26 @@ images=${2:-$root/docs/images}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$images"
-cp "$root"/samples/scenes/*.mtl "$work"
-
-# divide SCENE TIMES: a copy of the scene with more vertices on its flat parts.
-divide() {
-  python3 "$root/scripts/divide_flat_parts.py" "$root/samples/scenes/$1.obj" "$work/$1.obj" "$2"
-}
 
 # draw3 SCENE OPTIONS...: the three kinds of transfer side by side, as SCENE.png.
 draw3() {
   scene=$1
   shift
-  "$shbake" bake -q "$work/$scene.obj" -o "$work/a.ply" --order 8 --transfer unshadowed
-  "$shbake" bake -q "$work/$scene.obj" -o "$work/b.ply" --order 8 --transfer shadowed
-  "$shbake" bake -q "$work/$scene.obj" -o "$work/c.ply" --order 8
-  "$shbake" render -q "$work/a.ply" "$work/b.ply" "$work/c.ply" -o "$images/$scene.png" "$@"
+  file=$root/samples/scenes/$scene.obj
+  "$shbake" bake -q "$file" -o "$work/unshadowed.ply" --order 8 --transfer unshadowed
+  for kind in shadowed interreflected; do
+    "$shbake" bake -q "$file" -o "$work/$kind.ply" --order 8 --transfer $kind --tolerance 0.02 --rays 1024
+  done
+  "$shbake" render -q "$work/unshadowed.ply" "$work/shadowed.ply" "$work/interreflected.ply" -o "$images/$scene.png" "$@"
 }
 
-divide room 3
 draw3 room --light overcast --zenith 0.5,0.62,0.8 --ground 0.25 --sun 42,200 --sun-irradiance 5,4.5,3.8 --window hann \
   --view 180,3 --fov 45 --size 420x400
 
-divide columns 3
 draw3 columns --light overcast --zenith 0.35,0.5,0.75 --ground 0.2 --sun 45,245 --sun-irradiance 6,5.3,4.4 \
   --window lanczos --size 420x460
 
-divide city 2
-"$shbake" bake -q "$work/city.obj" -o "$work/city.ply" --order 8
+"$shbake" bake -q "$root/samples/scenes/city.obj" -o "$work/city.ply" --order 8 --tolerance 0.02
 "$shbake" render -q "$work/city.ply" -o "$images/city.png" --light overcast --zenith 0.35,0.5,0.75 --ground 0.2 \
   --sun 32,245 --sun-irradiance 6,5.3,4.4 --window lanczos --view 190,28 --size 900x480 --ground-plane 0.2
 

@@ -37,10 +37,21 @@ constexpr double kLeastSamples = 2048, kMostSamples = 16384;
 /// Bakes until the tolerance is met, each aiming lower than the last by what that missed.
 constexpr int kMostBakes = 3;
 
-std::string percent(double value) {
+std::string percent(double value, int digits) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.*f %%", value < 0.01 ? 2 : 1, 100 * value);
+  std::snprintf(text, sizeof text, "%.*f %%", digits, 100 * value);
   return text;
+}
+
+std::string percent(double value) {
+  return percent(value, value < 0.01 ? 2 : 1);
+}
+
+/// "2.04 %, above the tolerance of 2.00 %": with digits enough to tell them apart.
+std::string aboveTolerance(double error, double tolerance) {
+  int digits = tolerance < 0.01 ? 2 : 1;
+  while (digits < 4 && percent(error, digits) == percent(tolerance, digits)) ++digits;
+  return percent(error, digits) + ", above the tolerance of " + percent(tolerance, digits);
 }
 
 std::string count(std::size_t n) {
@@ -250,8 +261,7 @@ class AutoBaker {
   /// Why the tolerance was not met, as a warning.
   std::string whyNot() const {
     const SurfaceError& surface = result_.baked.facts.surface;
-    std::string text =
-        "the surface error is " + percent(surface.rms) + ", above the tolerance of " + percent(tolerance()) + ": ";
+    std::string text = "the surface error is " + aboveTolerance(surface.rms, tolerance()) + ": ";
     const double noise = left().noise * result_.baked.facts.rmsError * result_.baked.facts.rmsError;
     if (!openRays_ && noise > surface.rms * surface.rms / 2) return text + "the rays were given; allow more of them";
     if (options_.bake.kind == TransferKind::unshadowed)
