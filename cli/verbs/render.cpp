@@ -11,6 +11,7 @@
 #include "cli/light_options.h"
 #include "cli/light_text.h"
 #include "cli/options.h"
+#include "cli/output_path.h"
 #include "cli/parse.h"
 #include "cli/verb.h"
 #include "cli/view_light.h"
@@ -58,6 +59,7 @@ class Render : public Verb {
   BackgroundKind background_ = BackgroundKind::gradient;
   Turning turning_ = Turning::camera;
   int frames_ = 0, order_ = 5;
+  bool force_ = false;
 };
 
 void Render::declare(CLI::App& app) {
@@ -66,6 +68,7 @@ void Render::declare(CLI::App& app) {
       {"FILE", "", "baked PLY files, drawn side by side; or one .shlight file or image; without any --light is drawn"},
       files_);
   addText(app, {"-o,--output", "FILE", "the picture to write, .png (sRGB) or .exr (radiance); required"}, output_);
+  addSwitch(app, "--force", force_, "let the picture replace one of the inputs");
   light_.declare(app);
   declareCamera(app);
   declareLook(app);
@@ -138,7 +141,9 @@ void Render::checkOptions() const {
   if (frames_ == 1) throw usageError("--turntable: 1 is out of range", "give 2 to 9999 frames");
   if (frames_ > 0 && drawsLight()) throw usageError("--turntable turns meshes, and none is given");
   if (ground_ && drawsLight()) throw usageError("--ground-plane is for meshes, and none is given");
-  checkWritable(frames_ > 0 ? framePath(0) : output_);
+  std::vector<std::string> inputs = files_;
+  inputs.push_back(light_.name);
+  checkOutput(frames_ > 0 ? framePath(0) : output_, inputs, "one of the inputs", force_);
 }
 
 std::string Render::framePath(int frame) const {

@@ -1,4 +1,5 @@
 // `shbake sh`: a calculator for spherical-harmonic coefficients.
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +10,7 @@
 #include "cli/light_options.h"
 #include "cli/light_text.h"
 #include "cli/options.h"
+#include "cli/output_path.h"
 #include "cli/parse.h"
 #include "cli/verb.h"
 
@@ -129,6 +131,7 @@ class Calculate : public Verb {
   void printHazel(Report& report) const;
 
   std::string input_, output_, factor_;
+  bool force_ = false;
   std::vector<std::string> turns_, directions_;
   std::string mirror_ = "none";
   int order_ = 0;
@@ -152,6 +155,7 @@ void addAxes(CLI::App& app, const OptionText& text, const std::string& defaultTe
 void Calculate::declare(CLI::App& app) {
   addFile(app, "FILE", input_, "a light file (.shlight), or a text of n^2 numbers (grey) or n^2 rows of three");
   addText(app, {"-o,--output", "FILE", "write the result as a light file (.shlight)"}, output_);
+  addSwitch(app, "--force", force_, "let the output replace the file that is read");
   addChoice<Convention>(app,
                         {"--from", "NAME",
                          "convention of a text: shbake (real, orthonormal, no Condon-Shortley sign, index l(l+1)+m), "
@@ -289,7 +293,7 @@ void Calculate::run(Session& session) {
   if (input_.empty()) throw usageError("no file is named", "usage: shbake sh FILE [OPTIONS]");
   if (!output_.empty()) {
     requireLightFileName(output_);
-    checkWritable(output_);
+    checkOutput(output_, std::array{input_}, "the file that is read", force_);
   }
   file_ = read(input_);
   calculate(session);

@@ -217,6 +217,8 @@ class LightVerbs(unittest.TestCase):
         result = self.run_program("light", "a.shlight@2", "-o", "a.shlight")
         self.assertEqual(result.returncode, 2)
         self.assertEqual((self.folder / "a.shlight").read_bytes(), before)
+        self.refused(2, "sh", "a.shlight", "--mirror", "z", "-o", "a.shlight", says=["--force"])
+        self.assertEqual((self.folder / "a.shlight").read_bytes(), before)
         self.done("light", "a.shlight@2", "-o", "a.shlight", "--force")
         self.assertNotEqual((self.folder / "a.shlight").read_bytes(), before)
 

@@ -227,6 +227,7 @@ class ViewTest(unittest.TestCase):
             self.assertEqual(len(seen), 1, out)
 
     def test_wrong_usage_is_told_in_one_line(self):
+        self.ok("render", "-o", "probe.png", "--size", "64x32")
         cases = [
             (["relight"], 2, "no baked file"),
             (["relight", "box.ply"], 2, "no output"),
@@ -235,6 +236,7 @@ class ViewTest(unittest.TestCase):
             (["relight", "box.ply", "--light", "missing.exr", "-o", "lit.ply"], 1, "missing.exr"),
             (["relight", "box.ply", "--zenith", "-1", "-o", "lit.ply"], 2, "--zenith"),
             (["render", "box.ply"], 2, "no output"),
+            (["render", "box.ply", "--light", "probe.png", "-o", "probe.png"], 2, "--force"),
             (["render", "box.ply", "-o", "a.gif"], 2, ".png or .exr"),
             (["render", "box.ply", "-o", "a.png", "--view", "frnt"], 2, "front"),
             (["render", "box.ply", "-o", "a.png", "--size", "64"], 2, "WIDTHxHEIGHT"),
