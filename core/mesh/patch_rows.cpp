@@ -78,7 +78,16 @@ class NearSearch {
 class RowMaker {
  public:
   RowMaker(PatchLocator& patch, double offset, std::span<const PatchObstacle> obstacles, const PatchLength& length)
-      : patch_(patch), offset_(offset), obstacles_(obstacles), length_(length), taken_(kFromRows * offset) {}
+      : patch_(patch), offset_(offset), length_(length), points_(kFromObstacles * offset), taken_(kFromRows * offset) {
+    // Most are vertices inside the patch, as many as it has.
+    for (const PatchObstacle& o : obstacles) {
+      if (o.a.x == o.b.x && o.a.y == o.b.y) {
+        points_.add(o.a);
+      } else {
+        pieces_.push_back(o);
+      }
+    }
+  }
 
   void addBeside(const PatchLine& line) {
     if (!sample(line)) return;
@@ -204,9 +213,9 @@ class RowMaker {
 
   bool addPoint(Point2 p, double wanted) {
     const std::uint32_t face = patch_.find(p);
-    if (face == PatchLocator::kNone || taken_.hasNear(p)) return false;
+    if (face == PatchLocator::kNone || taken_.hasNear(p) || points_.hasNear(p)) return false;
     const auto isNear = [&](const PatchObstacle& o) { return distanceTo(o, p) < kFromObstacles * offset_; };
-    if (std::any_of(obstacles_.begin(), obstacles_.end(), isNear)) return false;
+    if (std::any_of(pieces_.begin(), pieces_.end(), isNear)) return false;
     taken_.add(p);
     rows_.points.push_back({p, face});
     rows_.pieces.push_back({p, p, wanted, offset_});
@@ -222,9 +231,10 @@ class RowMaker {
 
   PatchLocator& patch_;
   double offset_;
-  std::span<const PatchObstacle> obstacles_;
   const PatchLength& length_;
-  NearSearch taken_;
+  std::vector<PatchObstacle> pieces_;    // what to keep from: pieces of the border,
+  NearSearch points_;                    // points,
+  NearSearch taken_;                     // and rows
   std::vector<Sample> samples_, stops_;  // of the line at hand
   PatchRows rows_;
 };
