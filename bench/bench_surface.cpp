@@ -50,8 +50,10 @@ struct Trial {
   double rays = 0;     // traced in all
   SurfaceError error;
 
+  /// The rays of the vertices and of what their values are fitted to; not those that chose the setting or judged it.
   double cost() const {
-    return static_cast<double>(bake.baked.transfer.size()) * static_cast<double>(bake.baked.facts.rays);
+    const double vertices = static_cast<double>(bake.baked.transfer.size()) * bake.baked.facts.rays;
+    return vertices + (bake.baked.fit ? bake.baked.fit->fittedRays : 0);
   }
 };
 

@@ -295,7 +295,7 @@ void Bake::describe(const AutoBake& bake, const std::vector<std::string>& findin
   report.fact("albedo", baked.albedoNote, "albedo", baked.albedoNote);
   describeChoices(bake, report);
   describeTransfer(baked.transfer, &facts, report);
-  if (!baked.fitNote.empty()) report.data("fit.reason", baked.fitNote);
+  if (baked.fit) report.data("fit.reason", baked.fit->reason);
   describeTime(session);
   report.data("output.file", output_);
   report.data("output.vertices", whole(baked.transfer.size()));

@@ -39,90 +39,104 @@ PackedLists neighboursOf(const LightingPoints& points, Progress& progress) {
   return lists;
 }
 
-/// Smooths one point after another; one for each worker thread.
-class Smoother {
+/// What points lack of the light of the open sky, for albedo 1, and how surely.
+class Lacks {
  public:
-  Smoother(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, const TransferSet& baked,
-           const PackedLists& neighbours)
+  Lacks(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, const TransferSet& baked)
       : points_(points),
         wanted_(wanted),
         baked_(baked),
-        neighbours_(neighbours),
         norm_(sh::unshadowedNorm(baked.order)),
-        open_(static_cast<std::size_t>(baked.coefficientsPerChannel())),
-        own_(baked.stride()),
-        mean_(baked.stride()) {}
+        values_(baked.coefficients.size()) {}
+
+  /// Finds what the points from `begin` to `end` lack.
+  void find(std::size_t begin, std::size_t end) {
+    const auto count = static_cast<std::size_t>(baked_.coefficientsPerChannel()), stride = baked_.stride();
+    std::vector<double> open(count);
+    for (std::size_t p = begin; p < end; ++p) {
+      if (!isUsable(p)) continue;
+      sh::unshadowedTransfer(baked_.order, normalized(Vec3d(points_.pointNormal[p])), 1, open);
+      for (std::size_t i = 0; i < stride; ++i) {
+        const double sent = static_cast<double>(baked_.coefficients[p * stride + i]) / albedo(p, i / count);
+        values_[p * stride + i] = static_cast<float>(open[i % count] - sent);
+      }
+    }
+  }
+
+  /// A row of the transfer's stride; 0 where the point is not usable.
+  std::span<const float> operator[](std::size_t p) const { return {&values_[p * baked_.stride()], baked_.stride()}; }
+  double albedo(std::size_t p, std::size_t channel) const {
+    const Rgb& a = points_.pointAlbedo[p];
+    return static_cast<double>(channel == 0 ? a.x : channel == 1 ? a.y : a.z);
+  }
+  bool isUsable(std::size_t p) const {
+    const Rgb& a = points_.pointAlbedo[p];
+    return (wanted_.empty() || wanted_[p] != 0) && std::min({a.x, a.y, a.z}) > 0;
+  }
+  /// The stated variance of a row over all coefficients.
+  double variance(std::size_t p) const {
+    return baked_.channels * std::pow(static_cast<double>(baked_.error[p]) * norm_, 2);
+  }
+
+ private:
+  const LightingPoints& points_;
+  const std::vector<std::uint8_t>& wanted_;
+  const TransferSet& baked_;
+  double norm_;
+  std::vector<float> values_;
+};
+
+/// Smooths one point after another; one for each worker thread.
+class Smoother {
+ public:
+  Smoother(const TransferSet& baked, const Lacks& lacks, const PackedLists& neighbours)
+      : baked_(baked), lacks_(lacks), neighbours_(neighbours), mean_(baked.stride()) {}
 
   /// Writes the smoothed coefficients of point `p`.
   void smooth(std::uint32_t p, std::span<float> out) {
-    const float* coefficients = &baked_.coefficients[p * baked_.stride()];
-    std::copy_n(coefficients, out.size(), out.begin());
-    if (!isUsable(p) || variance(p) == 0) return;
-    lackOf(p, own_);
+    std::copy_n(&baked_.coefficients[p * baked_.stride()], out.size(), out.begin());
+    if (!lacks_.isUsable(p) || lacks_.variance(p) == 0) return;
+    const std::span<const float> own = lacks_[p];
     findRing(p);
-    double weight = 1 / variance(p);
-    for (std::size_t i = 0; i < mean_.size(); ++i) mean_[i] = weight * own_[i];
+    double weight = 1 / lacks_.variance(p);
+    for (std::size_t i = 0; i < mean_.size(); ++i) mean_[i] = weight * static_cast<double>(own[i]);
     for (std::size_t k = 0; k < ring_.size(); ++k) {
-      const double squaredError = variance(ring_[k]) + kBiasWeight * std::max({0.0, bias_[k], meanBias_});
+      const double squaredError = lacks_.variance(ring_[k]) + kBiasWeight * std::max({0.0, bias_[k], meanBias_});
       // A neighbour without noise or bias would settle the matter alone, which only rounding can make of a noisy point.
       if (squaredError == 0) return;
       weight += 1 / squaredError;
-      for (std::size_t i = 0; i < mean_.size(); ++i) mean_[i] += lacks_[k * mean_.size() + i] / squaredError;
+      const std::span<const float> lack = lacks_[ring_[k]];
+      for (std::size_t i = 0; i < mean_.size(); ++i) mean_[i] += static_cast<double>(lack[i]) / squaredError;
     }
-    const std::size_t count = open_.size();
+    const auto count = static_cast<std::size_t>(baked_.coefficientsPerChannel());
     for (std::size_t i = 0; i < out.size(); ++i) {
-      out[i] += static_cast<float>(albedo(p, i / count) * (own_[i] - mean_[i] / weight));
+      out[i] += static_cast<float>(lacks_.albedo(p, i / count) * (static_cast<double>(own[i]) - mean_[i] / weight));
     }
   }
 
  private:
-  double albedo(std::uint32_t p, std::size_t channel) const {
-    const Rgb& a = points_.pointAlbedo[p];
-    return static_cast<double>(channel == 0 ? a.x : channel == 1 ? a.y : a.z);
-  }
-  bool isUsable(std::uint32_t p) const {
-    const Rgb& a = points_.pointAlbedo[p];
-    return (wanted_.empty() || wanted_[p] != 0) && std::min({a.x, a.y, a.z}) > 0;
-  }
-  /// The stated variance of lackOf() over all coefficients.
-  double variance(std::uint32_t p) const {
-    return baked_.channels * std::pow(static_cast<double>(baked_.error[p]) * norm_, 2);
-  }
-  /// What point `p` lacks of the light of the open sky, for albedo 1.
-  void lackOf(std::uint32_t p, std::span<double> out) {
-    sh::unshadowedTransfer(baked_.order, normalized(Vec3d(points_.pointNormal[p])), 1, open_);
-    const float* t = &baked_.coefficients[p * baked_.stride()];
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      out[i] = open_[i % open_.size()] - static_cast<double>(t[i]) / albedo(p, i / open_.size());
-    }
-  }
-
-  /// Fills ring_ with the neighbours of `p`, lacks_ with what they lack, bias_ with the squared differences to `p` that
-  /// noise does not explain, and meanBias_ with the mean of these: a single one is noisy itself.
+  /// Fills ring_ with the neighbours of `p`, bias_ with the squared differences to `p` that noise does not explain, and
+  /// meanBias_ with the mean of these: a single one is noisy itself.
   void findRing(std::uint32_t p) {
     ring_.assign(neighbours_[p].begin(), neighbours_[p].end());
     std::sort(ring_.begin(), ring_.end());
     ring_.erase(std::unique(ring_.begin(), ring_.end()), ring_.end());
-    std::erase_if(ring_, [&](std::uint32_t q) { return q == p || !isUsable(q); });
-    const std::size_t stride = own_.size();
-    lacks_.resize(ring_.size() * stride);
+    std::erase_if(ring_, [&](std::uint32_t q) { return q == p || !lacks_.isUsable(q); });
+    const std::span<const float> own = lacks_[p];
     bias_.resize(ring_.size());
     meanBias_ = 0;
     for (std::size_t k = 0; k < ring_.size(); ++k) {
-      const std::span<double> lack(&lacks_[k * stride], stride);
-      lackOf(ring_[k], lack);
-      bias_[k] = -variance(p) - variance(ring_[k]);
-      for (std::size_t i = 0; i < stride; ++i) bias_[k] += std::pow(lack[i] - own_[i], 2);
+      const std::span<const float> lack = lacks_[ring_[k]];
+      bias_[k] = -lacks_.variance(p) - lacks_.variance(ring_[k]);
+      for (std::size_t i = 0; i < own.size(); ++i) bias_[k] += std::pow(static_cast<double>(lack[i] - own[i]), 2);
       meanBias_ += bias_[k] / static_cast<double>(ring_.size());
     }
   }
 
-  const LightingPoints& points_;
-  const std::vector<std::uint8_t>& wanted_;
   const TransferSet& baked_;
+  const Lacks& lacks_;
   const PackedLists& neighbours_;
-  double norm_;
-  std::vector<double> open_, own_, mean_, lacks_, bias_;
+  std::vector<double> mean_, bias_;
   std::vector<std::uint32_t> ring_;
   double meanBias_ = 0;
 };
@@ -132,8 +146,14 @@ class Smoother {
 std::vector<float> smoothedCoefficients(const LightingPoints& points, const std::vector<std::uint8_t>& wanted,
                                         const TransferSet& baked, const Parallel& parallel, Progress& progress) {
   const PackedLists neighbours = neighboursOf(points, progress);
-  std::vector<Smoother> smoothers(static_cast<std::size_t>(parallel.threads()),
-                                  Smoother(points, wanted, baked, neighbours));
+  Lacks lacks(points, wanted, baked);
+  progress.begin("comparing with the open sky", static_cast<double>(points.size()), "points");
+  parallel.forBlocks(points.size(), 1024, [&](std::size_t begin, std::size_t end, int) {
+    lacks.find(begin, end);
+    progress.advance(static_cast<double>(end - begin));
+  });
+  progress.end();
+  std::vector<Smoother> smoothers(static_cast<std::size_t>(parallel.threads()), Smoother(baked, lacks, neighbours));
   std::vector<float> smoothed(baked.coefficients.size());
   progress.begin("smoothing", static_cast<double>(points.size()), "points");
   parallel.forBlocks(points.size(), 1024, [&](std::size_t begin, std::size_t end, int worker) {

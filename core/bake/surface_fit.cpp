@@ -22,10 +22,10 @@ namespace {
 /// Samples of the pilot: errors that gather in a few spots, as contact shadows do, are seen by a few of 512, and a gain
 /// of a tenth is then not significant.
 constexpr std::size_t kPilotSamples = 2048;
-/// On small meshes that is more work than the bake. A glance for this share of the bake's rays comes first, with
-/// samples enough to tell at all: it ends the matter where interpolation is surely good enough. Few samples of many
+/// On small meshes that is more work than the bake. Glances for these shares of the bake's rays come first, with
+/// samples enough to tell at all: they end the matter where interpolation is surely good enough. Few samples of many
 /// rays show that best, for the noise of a squared error falls faster with the rays than with the samples.
-constexpr double kGlanceShare = 0.05;
+constexpr std::array kGlanceShares{0.05, 0.1};
 constexpr double kLeastGlance = 32;
 /// Samples that judge a fit, for each lighting point, and the most of them.
 constexpr double kJudgeShare = 0.25;
@@ -44,7 +44,8 @@ constexpr double kRounding = 1e-6;
 constexpr std::size_t kBatch = 1 << 20;
 constexpr double kConfidence = 1.959963984540054;
 /// The independent streams of random numbers, apart from those that measure the surface error.
-enum Stream : std::uint64_t { kGlance = 12, kPilot = 16, kJudges = 20, kFitPlaces = 24, kFirstBatch };
+constexpr std::uint64_t kStreamsOfSamples = 4;
+enum Stream : std::uint64_t { kGlance = 8, kPilot = 16, kJudges = 20, kFitPlaces = 24, kFirstBatch };
 
 std::size_t roundedToEven(double count) {
   return 2 * static_cast<std::size_t>(std::ceil(count / 2));
@@ -71,14 +72,9 @@ class SurfaceFitter {
     if (measuredPoints_ == 0) return stop("no face has an area and reflects light");
     PlaceTracer tracer(points_, baked_, findSenders(), bake_, parallel_, progress_);
     HeldOutSamples held =
-        options_.kind == FitKind::automatic ? glance(tracer) : holdOut(tracer, kPilotSamples, rays_, kPilot);
-    SampledMean before = held.squaredError(baked_.coefficients);
-    if (report_.heldOut < kPilotSamples && !whyUseless(before.mean + kConfidence * before.error, held)) {
-      held = holdOut(tracer, kPilotSamples, rays_, kPilot);
-      before = held.squaredError(baked_.coefficients);
-    }
+        options_.kind == FitKind::automatic ? lookAround(tracer) : holdOut(tracer, kPilotSamples, rays_, kPilot);
     if (options_.kind == FitKind::automatic) smooth(held);
-    if (const char* useless = whyUseless(before.mean, held)) {
+    if (const char* useless = whyUseless(held.squaredError(baked_.coefficients).mean, held)) {
       report_.reason = useless;
     } else {
       const std::size_t judges =
@@ -135,12 +131,18 @@ class SurfaceFitter {
 
   std::uint64_t seed(std::uint64_t stream) const { return hashBits(bake_.seed, stream); }
 
-  HeldOutSamples glance(PlaceTracer& tracer) {
-    const int rays = std::max(rays_, std::min(bake_.rays, kMostRays));
-    const double affordable = kGlanceShare * static_cast<double>(measuredPoints_) * bake_.rays / (2.0 * rays);
-    const double count = std::max(kLeastGlance, affordable);
-    if (count >= static_cast<double>(kPilotSamples)) return holdOut(tracer, kPilotSamples, rays_, kPilot);
-    return holdOut(tracer, roundedToEven(count), rays, kGlance);
+  /// The first glance that tells for sure that a fit is of no use; the pilot where none does.
+  HeldOutSamples lookAround(PlaceTracer& tracer) {
+    const int rays = std::max(rays_, bake_.rays);
+    for (std::size_t i = 0; i < kGlanceShares.size(); ++i) {
+      const double affordable = kGlanceShares[i] * static_cast<double>(measuredPoints_) * bake_.rays / (2.0 * rays);
+      const double count = std::max(kLeastGlance, affordable);
+      if (count >= static_cast<double>(kPilotSamples)) break;
+      HeldOutSamples held = holdOut(tracer, roundedToEven(count), rays, kGlance + i * kStreamsOfSamples);
+      const SampledMean before = held.squaredError(baked_.coefficients);
+      if (whyUseless(before.mean + kConfidence * before.error, held)) return held;
+    }
+    return holdOut(tracer, kPilotSamples, rays_, kPilot);
   }
 
   /// Places that have no part in the fit, each traced twice.
@@ -219,8 +221,10 @@ class SurfaceFitter {
     std::vector<double> density;
     const std::vector<SurfacePlace> places = drawFitPlaces(density);
     SurfaceFitSystem system(points_.size(), points_.facePoints, stride_);
+    const double raysBefore = tracer.rays();
     addSamples(tracer, places, density, system);
     report_.samples = places.size();
+    report_.fittedRays = tracer.rays() - raysBefore;
     const double perPoint = static_cast<double>(places.size()) / static_cast<double>(measuredPoints_);
     // An error that drowns in the noise may be measured as none or less: what were removed then would be noise too.
     const double error = held.squaredError(values_).mean;

@@ -54,7 +54,8 @@ struct FitReport {
   std::size_t fittedRegions = 0;   ///< those among them that took some of the fit
   std::size_t samples = 0;         ///< places that were fitted to
   std::size_t heldOut = 0;         ///< places that judged
-  double rays = 0;                 ///< traced for both
+  double rays = 0;                 ///< traced for both, and for what looked whether to fit
+  double fittedRays = 0;           ///< those among them that values were fitted to
   double ridge = 0;                ///< how many times the mass of its samples a point's own value weighed
   HeldOutError before, after;      ///< none where there were no samples
 };

@@ -226,9 +226,8 @@ class AutoBaker {
         tell("bounces", "all", "in " + std::to_string(facts.bounces) + " steps, to a tenth of the error of the points");
       }
     }
-    if (!baked.fitNote.empty()) {
-      const FitFacts& fit = facts.fit;
-      tell("fit", fit.fittedPoints > 0 ? "surface" : fit.smoothedPoints > 0 ? "smoothed" : "vertex", baked.fitNote);
+    if (const auto& fit = baked.fit) {
+      tell("fit", fit->fittedPoints > 0 ? "surface" : fit->smoothedPoints > 0 ? "smoothed" : "vertex", fit->reason);
     }
     if (!result_.met) result_.baked.warnings.push_back(whyNot());
   }

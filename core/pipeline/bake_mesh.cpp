@@ -175,14 +175,14 @@ BakedMesh bakeMesh(Mesh mesh, std::size_t blockers, ScenePoints scene, const Bak
   // Transfer of every lighting point.
   const std::vector<std::uint8_t> wanted = wantedPoints(points, outputs);
   PointBake baked = bakePoints(points, wanted, options.bake, parallel, progress);
-  const FitReport fit = fitToSurface(points, wanted, baked, options.bake, options.fit, parallel, progress);
+  FitReport fit = fitToSurface(points, wanted, baked, options.bake, options.fit, parallel, progress);
 
   // Back to the mesh.
   result.transfer = expand(baked.transfer, points, outputs);
   result.facts = describe(baked, options.bake);
   const FitFacts changed{fit.fittedPoints, fit.smoothedPoints, fit.before.rms, fit.after.rms};
   if (changed.any()) result.facts.fit = changed;
-  if (options.fit.kind != FitKind::vertex) result.fitNote = fit.reason;
+  if (options.fit.kind != FitKind::vertex) result.fit = std::move(fit);
   result.facts.albedo = describe(scene.albedo.albedo, options.albedo);
   result.facts.lightingPoints = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 1));
   result.facts.sourceVertices = vertices;

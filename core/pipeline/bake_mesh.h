@@ -35,7 +35,7 @@ struct BakedMesh {
   std::vector<std::uint32_t> sourceVertex;  ///< the input's vertex behind each vertex; empty where they map 1:1
   TransferFacts facts;
   std::string albedoNote;             ///< what albedo was taken, for reports: "vertex colours, 8-bit sRGB decoded"
-  std::string fitNote;                ///< what the fit did and why, for reports; empty where none was asked for
+  std::optional<FitReport> fit;       ///< what the fit did and why; none where none was asked for
   std::vector<std::string> warnings;  ///< what the user should know, one sentence each
 };
 

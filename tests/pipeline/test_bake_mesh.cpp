@@ -177,13 +177,13 @@ TEST_CASE("a fit changes the transfer that is written, and the facts tell of it"
   BakeMeshOptions o = options(TransferKind::shadowed, 256);
   const BakedMesh plain = bake(mesh, {blocker}, o);
   CHECK_FALSE(plain.facts.fit.any());
-  CHECK(plain.fitNote.empty());
+  CHECK(!plain.fit);
   o.fit.kind = FitKind::surface;
   const BakedMesh fitted = bake(mesh, {blocker}, o);
   // Each vertex is a lighting point of its own, but those of the crease are two.
   CHECK(fitted.facts.fit.fittedPoints == plain.facts.lightingPoints);
   CHECK(fitted.facts.fit.after < fitted.facts.fit.before);
-  CHECK(fitted.fitNote == "asked for");
+  CHECK(fitted.fit->reason == "asked for");
   CHECK(fitted.transfer.error == plain.transfer.error);
   CHECK(fitted.transfer.visibility == plain.transfer.visibility);
   CHECK(fitted.transfer.coefficients != plain.transfer.coefficients);
@@ -191,7 +191,7 @@ TEST_CASE("a fit changes the transfer that is written, and the facts tell of it"
   o.bake.kind = TransferKind::unshadowed;
   const BakedMesh open = bake(mesh, {blocker}, o);
   CHECK_FALSE(open.facts.fit.any());
-  CHECK(open.fitNote == "unshadowed transfer has a closed form, which is kept");
+  CHECK(open.fit->reason == "unshadowed transfer has a closed form, which is kept");
   o.fit.samplesPerPoint = 0;
   CHECK_THROWS_WITH(bake(mesh, {blocker}, o), Catch::Contains("samples per point 0"));
 }
