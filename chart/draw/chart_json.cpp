@@ -84,26 +84,50 @@ const char* refinementName(SurfaceRefinement refinement) {
       return "even";
     case SurfaceRefinement::automatic:
       return "auto";
+    case SurfaceRefinement::chosen:
+      return "tolerance";
     default:
       return "none";
   }
 }
 
+const char* fitName(FitKind fit) {
+  switch (fit) {
+    case FitKind::automatic:
+      return "auto";
+    case FitKind::surface:
+      return "surface";
+    default:
+      return "vertex";
+  }
+}
+
 Json surfaceJson(const ChartData& data) {
   if (data.surface.points.empty()) return nullptr;
+  std::vector<CurvePoint> all;
+  for (const SurfacePoint& p : data.surface.points) all.push_back(curvePoint(p));
+  const std::vector<bool> front = paretoFront(all);
+  std::size_t number = 0;
   Json points = Json::array();
   for (const SurfacePoint& p : data.surface.points) {
     points.push_back({{"refinement", refinementName(p.refinement)},
                       {"asked", p.refinement == SurfaceRefinement::none ? Json(nullptr) : Json(p.asked)},
-                      {"fitted", p.fitted},
+                      {"fit", fitName(p.fit)},
+                      {"rays", p.rays},
                       {"vertices", p.vertices},
                       {"cpu", p.cpu},
                       {"error", p.error.rms},
                       {"low", p.error.low},
                       {"high", p.error.high},
-                      {"samples", p.error.samples}});
+                      {"samples", p.error.samples},
+                      {"default", isDefault(data.surface, p)},
+                      {"on_front", static_cast<bool>(front[number++])}});
   }
-  return {{"rays", data.surface.rays}, {"points", points}};
+  Json advice = Json::array();
+  for (const SurfaceAdvice& a : data.surfaceAdvice) {
+    advice.push_back({{"error", a.error}, {"point", orNull(a.point)}});
+  }
+  return {{"rays", data.surface.rays}, {"points", points}, {"advice", advice}};
 }
 
 Json adviceJson(const ChartData& data) {
@@ -125,6 +149,9 @@ Json adviceJson(const ChartData& data) {
 std::string chartJson(const ChartData& data) {
   Json defaults = pointJson(data.defaults);
   defaults["tolerance"] = data.defaultTolerance;
+  const Excess excess = excessOfDefault(data, kAllGroups);
+  defaults["over_front"] = excess.factor;
+  defaults["over_front_beyond_chance"] = excess.beyondChance;
   const Json root{
       {"shbake_chart", 1},
       {"version", SHBAKE_VERSION},

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "chart/draw/panels.h"
+#include "chart/draw/surface_text.h"
 #include "chart/draw/text.h"
 
 namespace shbake::chart {

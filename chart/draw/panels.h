@@ -9,8 +9,8 @@
 namespace shbake::chart {
 
 /// Error against CPU time of the directions, the same of other programs and exclusions, error against order, error
-/// against reflections, error between the vertices against their number; those that there are numbers for. Further
-/// panels are functions beside these.
+/// against reflections, error between the vertices against CPU time and against their number; those that there are
+/// numbers for. Further panels are functions beside these.
 std::vector<Panel> panelsOf(const ChartData& data);
 
 }  // namespace shbake::chart

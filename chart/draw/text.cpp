@@ -7,6 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "chart/draw/surface_text.h"
+
 namespace shbake::chart {
 namespace {
 
@@ -87,28 +89,6 @@ Table bouncesTable(const ChartData& data) {
   return table;
 }
 
-std::string refinementText(const SurfacePoint& p) {
-  switch (p.refinement) {
-    case SurfaceRefinement::even:
-      return "--refine " + significantText(p.asked, 3);
-    case SurfaceRefinement::automatic:
-      return "--refine auto, aimed at " + percentText(p.asked);
-    default:
-      return "as it is";
-  }
-}
-
-Table surfaceTable(const ChartData& data) {
-  Table table{"Error between the vertices",
-              {{"mesh", "vertices", "values", "error", "95 % between", "CPU time with refinement and fit"}}};
-  for (const SurfacePoint& p : data.surface.points) {
-    table.rows.push_back({refinementText(p), std::to_string(p.vertices), p.fitted ? "--fit auto" : "of the vertices",
-                          percentText(p.error.rms), percentText(p.error.low) + " and " + percentText(p.error.high),
-                          secondsText(p.cpu)});
-  }
-  return table;
-}
-
 std::string sentenceOf(const Advice& a, const ChartData& data) {
   const std::string goal = "For " + percentText(a.error) + " error ";
   if (!a.reachable) return goal + "more rays are needed than were measured.";
@@ -157,24 +137,6 @@ std::vector<std::string> adviceSentences(const ChartData& data) {
   return sentences;
 }
 
-std::vector<std::string> surfaceSentences(const ChartData& data) {
-  const std::vector<SurfacePoint>& points = data.surface.points;
-  if (points.empty()) return {};
-  const SurfacePoint& first = points.front();
-  std::vector<std::string> sentences{"Between its " + std::to_string(first.vertices) + " vertices the mesh errs " +
-                                     percentText(first.error.rms) + ", whatever the rays."};
-  const auto best = std::min_element(points.begin(), points.end(), [](const SurfacePoint& a, const SurfacePoint& b) {
-    return a.error.rms < b.error.rms;
-  });
-  if (best->error.rms < first.error.low) {
-    std::string how = best->refinement == SurfaceRefinement::none ? "" : refinementText(*best);
-    if (best->fitted) how += how.empty() ? "--fit auto" : " and --fit auto";
-    sentences.push_back("The least measured is " + percentText(best->error.rms) + " with " + how + ": " +
-                        std::to_string(best->vertices) + " vertices, " + secondsText(best->cpu) + " of CPU time.");
-  }
-  return sentences;
-}
-
 std::vector<std::string> measurementSentences(const ChartData& data) {
   std::vector<std::string> sentences;
   sentences.push_back(data.mesh + ": " + std::to_string(data.faces) + " triangles, " + std::to_string(data.points) +
@@ -185,12 +147,7 @@ std::vector<std::string> measurementSentences(const ChartData& data) {
   sentences.push_back("Times are CPU time of one thread for tracing and sums; the BVH takes " +
                       secondsText(data.buildSeconds) + " more, and the search for contacts, which is counted, " +
                       secondsText(data.contactSeconds) + ".");
-  if (data.surface.rays > 0 && !data.surface.points.empty()) {
-    sentences.push_back("The error between the vertices was measured at " +
-                        std::to_string(data.surface.points.front().error.samples) +
-                        " places of the surface that had no part in the bake, each by " +
-                        std::to_string(data.surface.points.front().error.rays) + " rays, whose noise is taken out.");
-  }
+  for (const std::string& sentence : surfaceMeasurement(data)) sentences.push_back(sentence);
   for (const std::string& note : data.notes) sentences.push_back(note + ".");
   return sentences;
 }

@@ -23,9 +23,6 @@ std::string reachText(const Reach& reach, double value, int digits);
 /// is none.
 std::vector<std::string> adviceSentences(const ChartData& data);
 
-/// What the error between the vertices is and what lowers it; nothing where it was not measured.
-std::vector<std::string> surfaceSentences(const ChartData& data);
-
 /// What was measured and how, one sentence each: mesh, reference, its noise, notes.
 std::vector<std::string> measurementSentences(const ChartData& data);
 

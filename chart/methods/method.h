@@ -1,6 +1,7 @@
 // The ways to bake shadowed transfer that are charted against each other, behind one interface.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -67,6 +68,9 @@ enum class MethodGroup {
   exclusion,   ///< other ways to leave out what a ray starts from, all else as ours
   programs,    ///< loops of other programs
 };
+
+inline constexpr std::array kAllGroups{MethodGroup::ours, MethodGroup::directions, MethodGroup::exclusion,
+                                       MethodGroup::programs};
 
 struct Method {
   const char* id;      ///< in files: "cosine-jittered"

@@ -11,4 +11,8 @@ namespace shbake::chart {
 /// theirs: the fewest that leave out no more, and rays for the rest, since independent errors add as squares.
 std::vector<Advice> adviseSettings(const ChartData& data);
 
+/// Of what was measured between the vertices, what takes the least time to each of these errors. Refinement that aims
+/// at an error of its own is left out: --tolerance is how to ask for that.
+std::vector<SurfaceAdvice> adviseSurface(const SurfaceStudy& study);
+
 }  // namespace shbake::chart

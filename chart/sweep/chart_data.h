@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "bake/surface_fit.h"
 #include "chart/methods/method.h"
 #include "chart/sweep/curve.h"
 #include "chart/sweep/reference.h"
@@ -50,25 +52,34 @@ struct BounceStudy {
 
 /// What became of the flat parts of a mesh.
 enum class SurfaceRefinement {
-  none,      ///< they stay as they are
-  even,      ///< edges of one length (mesh/refine.h)
-  automatic  ///< finer where the light changes (pipeline/auto_refine.h)
+  none,       ///< they stay as they are
+  even,       ///< edges of one length (mesh/refine.h)
+  automatic,  ///< finer where the light changes (pipeline/auto_refine.h)
+  chosen      ///< all, rays and fit too, was chosen for a surface error (pipeline/auto_bake.h)
 };
 
 /// One bake whose error between the vertices was measured.
 struct SurfacePoint {
   SurfaceRefinement refinement = SurfaceRefinement::none;
-  double asked = 0;          ///< the length of edges in file units, or the error of interpolation that was aimed at
-  bool fitted = false;       ///< with values that interpolate best where samples show that it helps
+  double asked = 0;  ///< the length of edges in file units, or the error that was aimed at
+  FitKind fit = FitKind::vertex;
+  int rays = 0;              ///< of each vertex
   std::size_t vertices = 0;  ///< of the mesh
-  double cpu = 0;            ///< CPU seconds of refinement, bake and fit
+  double cpu = 0;            ///< CPU seconds of refinement, BVH, bake and fit, on all threads together
   SurfaceError error;
 };
 
 struct SurfaceStudy {
-  int rays = 0;                      ///< of each vertex; 0: not measured
+  int rays = 0;                      ///< of each vertex by default; 0: not measured
+  CacheUse cache = CacheUse::none;   ///< of what the places are judged by
   std::vector<SurfacePoint> points;  ///< in the order in which they were measured, a fit behind what it is a fit of
 };
+
+/// Whether a point is what `shbake bake` does by itself.
+bool isDefault(const SurfaceStudy& study, const SurfacePoint& point);
+
+/// Its rays, time and error as a place of a curve.
+CurvePoint curvePoint(const SurfacePoint& point);
 
 /// What to ask for to reach an error.
 struct Advice {
@@ -77,6 +88,12 @@ struct Advice {
   int rays = 0;
   double cpu = 0;              ///< CPU seconds of the shadowed bake
   std::optional<int> bounces;  ///< reflections that keep within the error; nothing where not measured or not enough
+};
+
+/// The setting that took the least time to an error between the vertices.
+struct SurfaceAdvice {
+  double error = 0;
+  std::optional<std::size_t> point;  ///< of SurfaceStudy::points; nothing where none errs so little
 };
 
 struct ChartData {
@@ -96,11 +113,16 @@ struct ChartData {
   BounceStudy bounces;
   SurfaceStudy surface;
   std::vector<Advice> advice;
-  std::vector<std::string> notes;  ///< what was left out and why, one sentence each
-  double seconds = 0;              ///< that measuring took, by the wall clock
+  std::vector<SurfaceAdvice> surfaceAdvice;  ///< none where the surface was not measured
+  std::vector<std::string> notes;            ///< what was left out and why, one sentence each
+  double seconds = 0;                        ///< that measuring took, by the wall clock
 };
 
 /// The curve of a method; null where it was not measured.
 const MethodCurve* curveOf(const ChartData& data, const char* id);
+
+/// How far the default is from the front of some groups' curves. The same setting on our own curve is not held against
+/// it.
+Excess excessOfDefault(const ChartData& data, std::span<const MethodGroup> groups);
 
 }  // namespace shbake::chart

@@ -3,8 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace shbake::chart {
+namespace {
+
+/// Standard errors that chance does not reach: once in 740 times where they are normally distributed.
+constexpr double kBeyondChance = 3;
+
+}  // namespace
 
 std::vector<bool> paretoFront(std::span<const CurvePoint> points) {
   std::vector<bool> front;
@@ -16,11 +23,22 @@ std::vector<bool> paretoFront(std::span<const CurvePoint> points) {
   return front;
 }
 
-double excessOverFront(const CurvePoint& point, std::span<const CurvePoint> others) {
-  double excess = 0;
+LeastTime leastTime(std::span<const double> times) {
+  const double least = *std::min_element(times.begin(), times.end());
+  if (times.size() < 2) return {least, 0};
+  const auto n = static_cast<double>(times.size());
+  const double mean = std::accumulate(times.begin(), times.end(), 0.0) / n;
+  return {least, (mean - least) / (n - 1) / least};
+}
+
+Excess excessOverFront(const CurvePoint& point, std::span<const CurvePoint> others) {
+  Excess excess;
   for (const CurvePoint& q : others) {
+    const double speed = point.cpu / q.cpu;
     const double accuracy = q.error > 0 ? point.error / q.error : point.error > 0 ? INFINITY : 1;
-    excess = std::max(excess, std::min(point.cpu / q.cpu, accuracy));
+    excess.factor = std::max(excess.factor, std::min(speed, accuracy));
+    excess.beyondChance |= std::log(speed) > kBeyondChance * std::hypot(point.cpuSpread, q.cpuSpread) &&
+                           std::log(accuracy) > kBeyondChance * std::hypot(point.errorSpread, q.errorSpread);
   }
   return excess;
 }

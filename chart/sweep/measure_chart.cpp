@@ -15,7 +15,7 @@ namespace shbake::chart {
 namespace {
 
 /// The parts of the budget by whose ends each part of the work is done; what is left is for drawing.
-constexpr double kReferenceEnd = 0.25, kSweepEnd = 0.6, kBouncesEnd = 0.75, kSurfaceEnd = 0.95;
+constexpr double kReferenceEnd = 0.22, kSweepEnd = 0.54, kBouncesEnd = 0.66, kSurfaceEnd = 0.95;
 /// Orders are measured on fewer points: sampling them costs next to nothing, and they differ by factors.
 constexpr std::size_t kOrderPoints = 512;
 
@@ -52,12 +52,6 @@ double secondsPerPointRay(const ChartData& data) {
 
 }  // namespace
 
-const MethodCurve* curveOf(const ChartData& data, const char* id) {
-  const auto found = std::find_if(data.curves.begin(), data.curves.end(),
-                                  [&](const MethodCurve& c) { return std::string(id) == c.method->id; });
-  return found == data.curves.end() ? nullptr : &*found;
-}
-
 ChartData measureChart(const LightingPoints& points, const MeasureOptions& o, const Parallel& parallel,
                        Progress& progress) {
   validate(o);
@@ -75,7 +69,7 @@ ChartData measureChart(const LightingPoints& points, const MeasureOptions& o, co
   data.contactSeconds = bed.contactSeconds();
 
   const std::vector<std::uint32_t> sample = samplePoints(points.size(), o.sample);
-  const MadeReference made = makeReference(bed, sample, {.rays = o.referenceRays, .cache = o.cache},
+  const MadeReference made = makeReference(points, bed.exact(), sample, {.rays = o.referenceRays, .cache = o.cache},
                                            deadline.at(whole * kReferenceEnd), parallel, progress);
   const Reference& reference = made.reference;
   data.referencePoints = reference.points;
@@ -94,11 +88,15 @@ ChartData measureChart(const LightingPoints& points, const MeasureOptions& o, co
                             o.light, parallel, progress);
   studyBounces(points, data.order, secondsPerRay(data), deadline.at(whole * kBouncesEnd), parallel, progress, data);
   if (o.surface != nullptr) {
-    const SurfaceStudyOptions study{
-        .order = data.order, .rays = data.defaults.rays, .secondsPerPointRay = secondsPerPointRay(data)};
+    const SurfaceStudyOptions study{.order = data.order,
+                                    .rays = data.defaults.rays,
+                                    .secondsPerPointRay = secondsPerPointRay(data),
+                                    .cache = o.surfaceCache};
     studySurface(*o.surface, study, deadline.at(kSurfaceEnd), parallel, progress, data);
+    noteCache(data.surface.cache, o.surfaceCache, data);
   }
   data.advice = adviseSettings(data);
+  data.surfaceAdvice = adviseSurface(data.surface);
   data.seconds = deadline.passed();
   return data;
 }

@@ -20,6 +20,7 @@ struct MeasureOptions {
   std::size_t sample = 2048;      ///< points that are measured at most, 16 or more
   int referenceRays = 32768;      ///< of each of the two reference estimates, 256..1048576
   std::string cache;              ///< keeps the reference; empty: nothing does
+  std::string surfaceCache;       ///< the same of places between the vertices
   const Mesh* surface = nullptr;  ///< the mesh of the points, for the error between its vertices; null: not measured
   const Light* light = nullptr;   ///< under which orders are judged too; null: none
   std::string lightName;

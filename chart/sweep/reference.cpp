@@ -29,14 +29,15 @@ void append(std::vector<float>& to, const std::vector<float>& from) {
 
 }  // namespace
 
-MadeReference makeReference(const TestBed& bed, std::span<const std::uint32_t> sample, const ReferenceOptions& options,
-                            const Deadline& deadline, const Parallel& parallel, Progress& progress) {
+MadeReference makeReference(const LightingPoints& points, const RayScene& scene, std::span<const std::uint32_t> sample,
+                            const ReferenceOptions& options, const Deadline& deadline, const Parallel& parallel,
+                            Progress& progress) {
   MadeReference made;
   Reference& r = made.reference;
   r.order = options.order;
   r.rays = options.rays;
   const bool cached = !options.cache.empty();
-  const ReferenceKey key = cached ? referenceKey(bed.points(), sample, options) : ReferenceKey{};
+  const ReferenceKey key = cached ? referenceKey(points, sample, options) : ReferenceKey{};
   if (cached) {
     const CacheState state = readReferenceCache(options.cache, key, r);
     made.cache = state == CacheState::absent ? CacheUse::fresh
@@ -55,7 +56,7 @@ MadeReference makeReference(const TestBed& bed, std::span<const std::uint32_t> s
     while (r.points < sample.size() && (r.points == 0 || !deadline.isOver())) {
       const auto batch = sample.subspan(r.points, std::min(kBatch, sample.size() - r.points));
       const auto trace = [&](int rays, std::uint64_t seed) {
-        return directTransfer(bed.points(), bed.exact(), batch, options.order, rays, seed, parallel, progress);
+        return directTransfer(points, scene, batch, options.order, rays, seed, parallel, progress);
       };
       const std::vector<float> first = trace(options.rays, kFirstSeed);
       append(r.second, trace(secondRays(options.rays), kSecondSeed));

@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "bake/ray_scene.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "chart/methods/method.h"
 #include "chart/sweep/deadline.h"
+#include "mesh/lighting_points.h"
 
 namespace shbake::chart {
 
@@ -42,7 +43,8 @@ struct MadeReference {
 /// Traces the points of `sample` in order until all are known or the deadline is over; at least one block of them. With
 /// a cache, begins where the last call stopped, and writes what is known every few seconds, at the end and when it is
 /// cancelled. A damaged cache, or one of another mesh, sample, version or other options, is remade.
-MadeReference makeReference(const TestBed& bed, std::span<const std::uint32_t> sample, const ReferenceOptions& options,
-                            const Deadline& deadline, const Parallel& parallel, Progress& progress);
+MadeReference makeReference(const LightingPoints& points, const RayScene& scene, std::span<const std::uint32_t> sample,
+                            const ReferenceOptions& options, const Deadline& deadline, const Parallel& parallel,
+                            Progress& progress);
 
 }  // namespace shbake::chart

@@ -1,4 +1,5 @@
-// The error between the vertices against their number: bakes of one mesh, refined in two ways, with and without a fit.
+// The error between the vertices against time: bakes of one mesh by rays, by fits, refined in two ways, and to
+// tolerances.
 #include "chart/sweep/surface_study.h"
 
 #include <algorithm>
@@ -9,31 +10,55 @@
 #include <utility>
 
 #include "bake/baker.h"
-#include "bake/surface_error.h"
-#include "bake/surface_fit.h"
+#include "base/error.h"
 #include "chart/methods/cpu_clock.h"
+#include "chart/sweep/surface_judge.h"
 #include "mesh/refine.h"
+#include "pipeline/auto_bake.h"
 #include "pipeline/auto_refine.h"
 #include "pipeline/scene_points.h"
 
 namespace shbake::chart {
 namespace {
 
-/// Errors of interpolation to which flat parts are divided where the light changes.
+/// Rays of the mesh as it is, beside the default.
+constexpr std::array kRays{16, 64, 256, 1024, 4096};
+/// Errors to which flat parts are divided where the light changes, and surface errors to reach.
 constexpr std::array kTargets{0.16, 0.08, 0.04, 0.02, 0.01, 0.005};
 /// A mesh whose flat parts have a smaller share of its area is none that refinement changes.
 constexpr double kLeastFlat = 0.01;
 /// The first mesh of even edges has about this many times the vertices of the mesh as it is, or kLeastVertices if that
 /// is more; each further one has four times as many.
 constexpr double kFirstGrowth = 2, kGrowth = 4, kLeastVertices = 256;
+constexpr std::size_t kMostVertices = 2'000'000;
 /// Meshes that grew by less are not another place in the chart.
 constexpr double kLeastGrowth = 1.02;
-/// A bake, its fit and the measurement of both take about this many times the bake alone.
-constexpr double kCostOverBake = 5;
-/// Each place that judges traces two sets of four times the rays.
-constexpr double kRaysOfSample = 8;
+/// A fit takes about this many times as long as the bake before it.
+constexpr double kCostOfFit = 1.2;
 /// Refinement where the light changes judges this many meshes or fewer before the last, each with pilot rays.
 constexpr double kCostOfJudging = 2;
+/// A bake to a tolerance may refine, bake and judge itself up to three times; the next one, to half the error, takes
+/// at most so many times as long.
+constexpr double kCostOfTolerance = 6, kNextTolerance = 4;
+/// The part of the time that goes to tracing the places that judge.
+constexpr double kJudgeShare = 0.25;
+/// Times of quick work scatter: it is done up to three times, and the least counts.
+constexpr int kRuns = 3;
+constexpr double kQuickSeconds = 0.3;
+
+/// CPU seconds of `work`, which does the same each time.
+template <class Work>
+double leastCpu(const Work& work) {
+  double least = std::numeric_limits<double>::infinity(), all = 0;
+  for (int run = 0; run < kRuns && all < kQuickSeconds; ++run) {
+    const double start = cpuSeconds();
+    work();
+    const double taken = cpuSeconds() - start;
+    least = std::min(least, taken);
+    all += taken;
+  }
+  return least;
+}
 
 class SurfaceStudier {
  public:
@@ -44,136 +69,216 @@ class SurfaceStudier {
         deadline_(deadline),
         parallel_(parallel),
         progress_(progress),
-        polled_([this](const ProgressState&) { return progress_.tryAdvance(0); }),
+        polled_([this](const ProgressState&) { return progress_.tryAdvance(0) && !deadline_.isOver(); }),
         data_(data) {
     bake_.kind = TransferKind::shadowed;
     bake_.order = options.order;
-    bake_.rays = options.rays;
   }
 
   void run() {
-    if (foreseen(static_cast<double>(data_.points)) > deadline_.left()) {
+    const double pointRays = static_cast<double>(data_.points) * options_.rays;
+    if (foreseen(pointRays, 0) > (1 - kJudgeShare) * deadline_.left()) {
       data_.notes.push_back("the error between the vertices was left out: it would not fit the budget");
       return;
     }
-    progress_.begin("surface", 0, "bakes");
+    if (!attempt([&] { return findPlaces(); })) return;
     data_.surface.rays = options_.rays;
-    judge(mesh_, SurfaceRefinement::none, 0, 0);
-    refine();
+    progress_.begin("surface", 0, "bakes");
+    if (attempt([&] { return bakeAsItIs(options_.rays); })) attempt([&] { return goThrough(); });
     progress_.end();
+    if (leftOut_ > 0) {
+      data_.notes.push_back("the time was short: of the error between the vertices, " + std::to_string(leftOut_) +
+                            " steps of rays, refinement or tolerance were left out");
+    }
   }
 
  private:
-  /// Seconds by the wall clock for all that is done with a mesh of so many points.
-  double foreseen(double points) const {
-    const double judging = 2 * kRaysOfSample * static_cast<double>(options_.samples);
-    const double cpu = (kCostOverBake * points + judging) * options_.rays * options_.secondsPerPointRay;
-    return std::max(cpu / parallel_.threads(), points * secondsPerPoint_);
+  /// Seconds by the wall clock for a bake of so many rays in all and fits as costly as `fits` bakes.
+  double foreseen(double pointRays, double fits) const {
+    return slowness_ * (1 + fits) * pointRays * options_.secondsPerPointRay / parallel_.threads();
   }
 
-  RefinedMesh divided(double length, std::size_t maxVertices) {
+  /// Does a step that returns whether the next of its kind is worth a try. False too where the deadline stopped it.
+  template <class Step>
+  bool attempt(const Step& step) {
+    try {
+      return step();
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::cancelled) throw;
+      progress_.advance(0);  // throws where it was the user who stopped
+      return leaveOut();
+    }
+  }
+  bool leaveOut() {
+    ++leftOut_;
+    return false;
+  }
+
+  /// Returns whether there are any.
+  bool findPlaces() {
+    scene_ = makeScenePoints(mesh_, {}, {}, {}, polled_);
+    judge_.emplace(scene_.points,
+                   SurfaceJudgeOptions{.order = options_.order, .places = options_.places, .cache = options_.cache},
+                   Deadline(kJudgeShare * deadline_.left()), parallel_, progress_);
+    data_.surface.cache = judge_->cache();
+    return judge_->places() > 0;
+  }
+
+  /// From the cheapest settings of each kind to the dearest.
+  bool goThrough() {
+    const RefineReport flat = divided(std::numeric_limits<double>::max()).report;
+    const bool isFlat = flat.flatArea >= kLeastFlat * flat.area[0];
+    if (!isFlat) {
+      data_.notes.push_back(
+          "no part of the mesh is flat, and none but flat parts are refined: the error between the vertices was "
+          "measured by rays and fits only");
+    }
+    double vertices = std::max(kFirstGrowth * static_cast<double>(mesh_.positions.size()), kLeastVertices);
+    bool rays = true, even = isFlat, automatic = isFlat, tolerance = true;
+    for (std::size_t i = 0; i < kTargets.size(); ++i) {
+      rays = rays && i < kRays.size() && attempt([&] { return bakeAsItIs(kRays[i]); });
+      automatic = automatic && attempt([&] { return divideWhereLightChanges(kTargets[i]); });
+      even = even && attempt([&] { return divideEvenly(flat.flatArea, vertices); });
+      tolerance = tolerance && attempt([&] { return bakeToTolerance(kTargets[i]); });
+      vertices *= kGrowth;
+    }
+    return true;
+  }
+
+  RefinedMesh divided(double length) {
     RefineOptions refine;
-    refine.maxVertices = maxVertices;
+    refine.maxVertices = kMostVertices;
     return refineFlatRegions(
         mesh_, refine, [length](std::uint32_t, const Vec3d&) { return length; }, parallel_, polled_);
   }
 
-  void refine() {
-    const RefineReport flat = divided(std::numeric_limits<double>::max(), kMostVertices).report;
-    if (flat.flatArea < kLeastFlat * flat.area[0]) {
-      data_.notes.push_back(
-          "no part of the mesh is flat, and none but flat parts are refined: the error between the vertices was "
-          "measured with and without a fit only");
-      return;
-    }
-    double vertices = std::max(kFirstGrowth * static_cast<double>(mesh_.positions.size()), kLeastVertices);
-    bool evenGoesOn = true, automaticGoesOn = true;
-    for (const double target : kTargets) {
-      automaticGoesOn = automaticGoesOn && divideWhereLightChanges(target);
-      evenGoesOn = evenGoesOn && divideEvenly(flat.flatArea, vertices);
-      vertices *= kGrowth;
-    }
+  bool bakeAsItIs(int rays) {
+    const bool isDone = std::any_of(data_.surface.points.begin(), data_.surface.points.end(), [&](const auto& p) {
+      return p.refinement == SurfaceRefinement::none && p.rays == rays;
+    });
+    if (isDone) return true;
+    if (foreseen(static_cast<double>(data_.points) * rays, 2 * kCostOfFit) > deadline_.left()) return leaveOut();
+    SurfacePoint point;
+    point.rays = rays;
+    point.vertices = mesh_.positions.size();
+    bakeAndJudge(point, scene_.points, {FitKind::automatic, FitKind::surface});
+    return true;
   }
 
-  /// Each returns whether a finer mesh is worth a try.
   bool divideEvenly(double flatArea, double vertices) {
-    if (foreseen(vertices) > deadline_.left()) return false;
+    if (foreseen(vertices * options_.rays, kCostOfFit) > deadline_.left()) return leaveOut();
     // Triangles with equal sides of length a: sqrt(3)/2 a^2 of area for each vertex.
     const double length = std::sqrt(flatArea / (std::sqrt(3.0) / 2 * vertices));
-    const double start = cpuSeconds();
-    const RefinedMesh refined = divided(length, kMostVertices);
-    const double cpu = cpuSeconds() - start;
-    if (grew(refined.mesh, SurfaceRefinement::even)) judge(refined.mesh, SurfaceRefinement::even, length, cpu);
+    RefinedMesh refined;
+    const double cpu = leastCpu([&] { refined = divided(length); });
+    addRefined(refined.mesh, SurfaceRefinement::even, length, cpu);
     return true;
   }
 
   bool divideWhereLightChanges(double target) {
-    const double most = deadline_.left() / (kCostOfJudging * foreseen(1e6) / 1e6);
-    if (most < kLeastGrowth * static_cast<double>(mesh_.positions.size())) return false;
+    const double most = deadline_.left() / foreseen(options_.rays, kCostOfFit + kCostOfJudging);
+    if (most < kLeastGrowth * static_cast<double>(mesh_.positions.size())) return leaveOut();
     AutoRefineOptions refine;
     refine.target = target;
     refine.maxVertices = static_cast<std::size_t>(std::min(most, double(kMostVertices)));
-    const double start = cpuSeconds();
-    const ScenePoints scene = makeScenePoints(mesh_, {}, {}, {}, polled_);
-    const AutoRefinement made = refineWhereLightChanges(mesh_, {}, scene, {}, {}, bake_, refine, parallel_, polled_);
-    const double cpu = cpuSeconds() - start;
-    if (made.end == RefineEnd::budget) return false;
-    if (grew(made.refined.mesh, SurfaceRefinement::automatic)) {
-      judge(made.refined.mesh, SurfaceRefinement::automatic, target, cpu);
-    }
+    BakeOptions bake = bake_;
+    bake.rays = options_.rays;
+    AutoRefinement made;
+    const double cpu =
+        leastCpu([&] { made = refineWhereLightChanges(mesh_, {}, scene_, {}, {}, bake, refine, parallel_, polled_); });
+    if (made.end == RefineEnd::budget) return leaveOut();
+    addRefined(made.refined.mesh, SurfaceRefinement::automatic, target, cpu);
     return made.end == RefineEnd::met;
   }
 
-  /// Whether a mesh has more vertices than the mesh as it is and the last of its kind.
-  bool grew(const Mesh& mesh, SurfaceRefinement kind) const {
+  /// Bakes and judges a refined mesh where it has more vertices than the mesh as it is and the last of its kind.
+  void addRefined(const Mesh& mesh, SurfaceRefinement refinement, double asked, double cpu) {
     std::size_t last = mesh_.positions.size();
     for (const SurfacePoint& p : data_.surface.points) {
-      if (p.refinement == kind) last = std::max(last, p.vertices);
+      if (p.refinement == refinement) last = std::max(last, p.vertices);
     }
-    return static_cast<double>(mesh.positions.size()) > kLeastGrowth * static_cast<double>(last);
+    if (static_cast<double>(mesh.positions.size()) <= kLeastGrowth * static_cast<double>(last)) return;
+    SurfacePoint point;
+    point.refinement = refinement;
+    point.asked = asked;
+    point.rays = options_.rays;
+    point.vertices = mesh.positions.size();
+    point.cpu = cpu;
+    bakeAndJudge(point, makeScenePoints(mesh, {}, {}, {}, polled_).points, {FitKind::automatic});
   }
 
-  void judge(const Mesh& mesh, SurfaceRefinement refinement, double asked, double refineCpu) {
+  /// Adds `point` with the transfer of the vertices and with each fit; its `cpu` is what was spent before.
+  void bakeAndJudge(SurfacePoint point, const LightingPoints& points, std::initializer_list<FitKind> fits) {
     const double wall = deadline_.passed();
-    const LightingPoints points = makeScenePoints(mesh, {}, {}, {}, polled_).points;
-    const double start = cpuSeconds();
-    PointBake baked = bakePoints(points, {}, bake_, parallel_, polled_);
-    SurfacePoint point{refinement, asked, false, mesh.positions.size(), refineCpu + cpuSeconds() - start, {}};
-    add(point, points, baked);
-    const double beforeFit = cpuSeconds();
-    const SurfaceFitOptions fit{.kind = FitKind::automatic};
-    const FitReport report = fitToSurface(points, {}, baked, bake_, fit, parallel_, polled_);
-    point.cpu += cpuSeconds() - beforeFit;
-    point.fitted = true;
-    if (report.fittedPoints + report.smoothedPoints > 0) {
-      add(point, points, baked);
-    } else if (data_.surface.points.back().error.samples > 0) {
-      // Nothing was changed: the same error for the time that it took to find out.
-      point.error = data_.surface.points.back().error;
-      data_.surface.points.push_back(point);
+    BakeOptions bake = bake_;
+    bake.rays = point.rays;
+    const PointSurface surface = judge_->surfaceOf(points);
+    PointBake baked, fitted;
+    point.cpu += leastCpu([&] { baked = bakePoints(points, {}, bake, parallel_, polled_); });
+    add(point, surface, baked.transfer);
+    const double bakeCpu = point.cpu;
+    for (const FitKind kind : fits) {
+      const double fitCpu = leastCpu([&] {
+        fitted = baked;
+        fitToSurface(points, {}, fitted, bake, {.kind = kind}, parallel_, polled_);
+      });
+      point.fit = kind;
+      point.cpu = bakeCpu + fitCpu;
+      add(point, surface, fitted.transfer);
     }
-    secondsPerPoint_ = std::max(secondsPerPoint_, (deadline_.passed() - wall) / static_cast<double>(points.size()));
+    // What is quick is done again, and has more about it than rays.
+    const double taken = deadline_.passed() - wall;
+    if (taken < kRuns * kQuickSeconds) return;
+    const double expected =
+        foreseen(static_cast<double>(points.size()) * point.rays, kCostOfFit * static_cast<double>(fits.size()));
+    slowness_ = std::max(1.0, slowness_ * taken / expected);
   }
 
-  void add(SurfacePoint& point, const LightingPoints& points, const PointBake& baked) {
-    BakeOptions done = bake_;
-    done.rays = baked.rays;
-    point.error = measureSurfaceError(points, baked.transfer, done, {.samples = options_.samples}, parallel_, polled_);
-    if (point.error.samples > 0) data_.surface.points.push_back(point);
+  bool bakeToTolerance(double tolerance) {
+    const double pointRays = static_cast<double>(data_.points) * options_.rays;
+    const double expected =
+        lastTolerance_ > 0 ? kNextTolerance * lastTolerance_ : foreseen(pointRays, kCostOfTolerance) / kNextTolerance;
+    if (expected > deadline_.left()) return leaveOut();
+    BakeMeshOptions options;
+    options.bake = bake_;
+    options.fit.kind = FitKind::automatic;
+    AutoBakeOptions choose;
+    choose.tolerance = tolerance;
+    choose.refinement.kind = RefinementOptions::Kind::automatic;
+    choose.refinement.maxVertices = kMostVertices;
+    const double wall = deadline_.passed();
+    AutoBake made;
+    SurfacePoint point;
+    point.cpu = leastCpu([&] { made = autoBake(mesh_, {}, options, choose, parallel_, polled_); });
+    lastTolerance_ = deadline_.passed() - wall;
+    point.refinement = SurfaceRefinement::chosen;
+    point.asked = tolerance;
+    point.fit = FitKind::automatic;
+    point.rays = made.baked.facts.rays;
+    point.vertices = made.baked.mesh.positions.size();
+    add(point, judge_->surfaceOf(made.baked.mesh), made.baked.transfer);
+    return made.met;
+  }
+
+  void add(SurfacePoint& point, const PointSurface& surface, const TransferSet& baked) {
+    point.error = judge_->errorOf(surface, baked);
+    data_.surface.points.push_back(point);
     progress_.advance(1);
   }
-
-  static constexpr std::size_t kMostVertices = 2'000'000;
 
   const Mesh& mesh_;
   const SurfaceStudyOptions& options_;
   const Deadline& deadline_;
   const Parallel& parallel_;
   Progress& progress_;
-  Progress polled_;
+  Progress polled_;  // stops work where the user does, or where the time is over
   ChartData& data_;
   BakeOptions bake_;
-  double secondsPerPoint_ = 0;
+  ScenePoints scene_;
+  std::optional<SurfaceJudge> judge_;
+  double slowness_ = 1;  // how many times as long as foreseen from the rays the last bakes took
+  double lastTolerance_ = 0;
+  int leftOut_ = 0;
 };
 
 }  // namespace

@@ -49,9 +49,12 @@ class Sweep {
     data_.measuredPoints = count_;
     data_.referenceNoise = judge.referenceNoise();
     for (const Method* m : methods_) data_.curves.push_back({m, {}, {}, {}});
-    measureDefault(judge);
+    const int defaultRays = chooseDefault(), defaultRound = nearestRays(defaultRays);
     for (const int rays : options_.rays) {
-      for (MethodCurve& curve : data_.curves) measure(curve, rays, judge);
+      std::vector<Setting> round = affordable(rays);
+      if (rays == defaultRound) round.push_back({&methodNamed("shbake"), defaultRays, nullptr, {}, {}, {}, 0});
+      measure(round, judge);
+      progress_.advance(double(rays) * runsAt(rays) * static_cast<double>(methods_.size()));
     }
     progress_.end();
     for (MethodCurve& curve : data_.curves) curve.slope = slopeOf(curve.points, kSlopeFrom, kSlopeTo);
@@ -85,56 +88,88 @@ class Sweep {
     progress_.begin("measuring", rayRuns() * static_cast<double>(methods_.size()), "");
   }
 
-  /// Runs one setting; `estimates` gets the transfer of every run.
-  CurvePoint measureSetting(const Method& method, int rays, const TransferJudge& judge,
-                            std::vector<std::vector<float>>& estimates) {
-    CurvePoint point;
-    point.rays = rays;
-    point.runs = runsAt(rays);
+  /// A number of rays of a method, and what its runs have brought so far.
+  struct Setting {
+    const Method* method;
+    int rays;
+    MethodCurve* curve;  ///< null: it is the default
     std::vector<double> squares, times;
-    for (int run = 0; run < point.runs; ++run) {
-      Estimate e = estimate(method, count_, rays, static_cast<std::uint64_t>(run + 1));
-      squares.push_back(judge.squaredError(e.transfer));
-      times.push_back(e.cpu);
-      point.traced = e.rays;
-      estimates.push_back(std::move(e.transfer));
-    }
-    double mean = 0, variance = 0;
-    for (const double s : squares) mean += s / point.runs;
-    for (const double s : squares) variance += (s - mean) * (s - mean) / (point.runs - 1) / point.runs;
-    point.error = mean > 0 ? std::sqrt(mean) : 0;
-    point.errorSpread = mean > 0 ? std::sqrt(variance) / (2 * mean) : 0;
-    // What else the machine does can only add to the time.
-    const auto [low, high] = std::minmax_element(times.begin(), times.end());
-    point.cpu = *low;
-    point.cpuSpread = (*high - *low) / *low;
-    return point;
-  }
+    std::vector<std::vector<float>> estimates;  ///< kept where their shared error is asked for
+    double traced;
+  };
 
-  void measureDefault(const TransferJudge& judge) {
+  /// The number of rays that meets the tolerance, and the one that is measured at about the same time.
+  int chooseDefault() {
     BakeOptions bake;
     bake.order = options_.order;
     bake.tolerance = options_.tolerance;
-    const int rays = chooseRays(bed_.points(), {}, bed_.exact(), bake, Parallel(1), polled_);
-    std::vector<std::vector<float>> unused;
-    data_.defaults = measureSetting(methodNamed("shbake"), rays, judge, unused);
     data_.defaultTolerance = options_.tolerance;
+    return chooseRays(bed_.points(), {}, bed_.exact(), bake, Parallel(1), polled_);
+  }
+  int nearestRays(int rays) const {
+    return *std::min_element(options_.rays.begin(), options_.rays.end(), [&](int a, int b) {
+      return std::abs(std::log(double(a) / rays)) < std::abs(std::log(double(b) / rays));
+    });
   }
 
-  void measure(MethodCurve& curve, int rays, const TransferJudge& judge) {
-    const double cost = double(rays) * runsAt(rays);
-    if (!curve.points.empty() && foreseen(curve.points.back(), rays) > deadline_.left()) {
-      ++skipped_;
-      progress_.advance(cost);
-      return;
+  /// The methods for whose next setting there is time.
+  std::vector<Setting> affordable(int rays) {
+    std::vector<Setting> round;
+    double seconds = 0;
+    for (MethodCurve& curve : data_.curves) {
+      const double next = curve.points.empty() ? 0 : foreseen(curve.points.back(), rays);
+      if (!curve.points.empty() && seconds + next > deadline_.left()) {
+        ++skipped_;
+        continue;
+      }
+      seconds += next;
+      round.push_back({curve.method, rays, &curve, {}, {}, {}, 0});
     }
-    std::vector<std::vector<float>> estimates;
-    curve.points.push_back(measureSetting(*curve.method, rays, judge, estimates));
-    if (rays == kSystematicRays) curve.systematic = sharedError(estimates, judge);
-    progress_.advance(cost);
+    return round;
   }
 
-  /// Seconds that a setting will take, from a smaller one.
+  /// Runs the settings in turns.
+  void measure(std::vector<Setting>& round, const TransferJudge& judge) {
+    const int most = round.empty() ? 0 : runsAt(std::min_element(round.begin(), round.end(), [](auto& a, auto& b) {
+                                                  return a.rays < b.rays;
+                                                })->rays);
+    for (int run = 0; run < most; ++run) {
+      for (Setting& s : round) {
+        if (run >= runsAt(s.rays)) continue;
+        Estimate e = estimate(*s.method, count_, s.rays, static_cast<std::uint64_t>(run + 1));
+        s.squares.push_back(judge.squaredError(e.transfer));
+        s.times.push_back(e.cpu);
+        s.traced = e.rays;
+        if (s.rays == kSystematicRays) s.estimates.push_back(std::move(e.transfer));
+      }
+    }
+    for (const Setting& s : round) {
+      if (s.curve == nullptr) {
+        data_.defaults = pointOf(s);
+        continue;
+      }
+      s.curve->points.push_back(pointOf(s));
+      if (s.rays == kSystematicRays) s.curve->systematic = sharedError(s.estimates, judge);
+    }
+  }
+
+  static CurvePoint pointOf(const Setting& s) {
+    CurvePoint point;
+    point.rays = s.rays;
+    point.traced = s.traced;
+    point.runs = static_cast<int>(s.times.size());
+    double mean = 0, variance = 0;
+    for (const double square : s.squares) mean += square / point.runs;
+    for (const double square : s.squares) variance += (square - mean) * (square - mean) / (point.runs - 1) / point.runs;
+    point.error = mean > 0 ? std::sqrt(mean) : 0;
+    point.errorSpread = mean > 0 ? std::sqrt(variance) / (2 * mean) : 0;
+    const LeastTime time = leastTime(s.times);
+    point.cpu = time.cpu;
+    point.cpuSpread = time.spread;
+    return point;
+  }
+
+  /// Seconds that all runs of a setting will take, from a smaller one.
   double foreseen(const CurvePoint& last, int rays) const {
     const double share = static_cast<double>(count_) / static_cast<double>(bed_.points().size());
     return last.cpu * share * rays / last.rays * runsAt(rays);

@@ -19,7 +19,9 @@ struct SweepOptions {
 /// Measures every method at every number of rays, the lowest first, on as many first points of the sample as the time
 /// up to the deadline lets expect, at most those that the reference knows. Runs on the calling thread: CPU time is
 /// that of one thread, undisturbed by others of this process. Four runs with different seeds up to 1024 rays, two
-/// beyond. Fills in the curves, the default setting and notes of `data`.
+/// beyond; all methods take turns, so that what else the machine does meets all alike, and the default setting takes
+/// its turn where the number of rays is nearest to its own. Fills in the curves, the default setting and notes of
+/// `data`.
 void runSweep(const TestBed& bed, std::span<const std::uint32_t> sample, const Reference& reference,
               const SweepOptions& options, const Deadline& deadline, Progress& progress, ChartData& data);
 

@@ -3,6 +3,7 @@
 
 #include "chart/draw/chart_file.h"
 #include "chart/draw/gnuplot.h"
+#include "chart/draw/surface_text.h"
 #include "chart/draw/text.h"
 #include "chart/sweep/measure_chart.h"
 #include "cli/format.h"
@@ -48,6 +49,7 @@ void Chart::checkPaths() const {
   const chart::ChartFormat format = chart::chartFormatOf(output_);
   checkWritable(output_);
   checkWritable(options_.cache);
+  checkWritable(options_.surfaceCache);
   if (format != chart::ChartFormat::json) chart::requireGnuplot();
 }
 
@@ -60,6 +62,7 @@ LightingPoints Chart::pointsOf(const Mesh& mesh, Session& session) const {
 
 void Chart::run(Session& session) {
   options_.cache = output_ + ".reference";
+  options_.surfaceCache = output_ + ".places";
   checkPaths();
   const Mesh mesh = readMesh(mesh_, session.progress);
   const LightingPoints points = pointsOf(mesh, session);
@@ -100,7 +103,9 @@ void Chart::describe(const chart::ChartData& data, Session& session) const {
   for (std::size_t i = 0; i < data.notes.size(); ++i) report.line(i == 0 ? "note" : "", data.notes[i]);
   report.fact("seconds", data.seconds, "time", formatDuration(data.seconds));
   report.data("cache.file", options_.cache);
-  report.fact("output.file", output_, "output", output_ + ", reference kept in " + options_.cache);
+  report.data("cache.surface", options_.surfaceCache);
+  report.fact("output.file", output_, "output",
+              output_ + ", references kept in " + options_.cache + " and " + options_.surfaceCache);
 }
 
 }  // namespace
@@ -110,9 +115,9 @@ const VerbEntry chartVerb{
     "chart", "MESH -o FILE", "chart speed against accuracy on a mesh",
     "Measures on MESH what settings of shbake and other methods err and cost, against a reference of many rays, and "
     "draws it: error against CPU time for 16 to 4096 rays a point, error against order, error against reflections, "
-    "the error between the vertices against their number (refined, fitted and as they are), with a table of the "
-    "numbers and the settings to use for 5, 2, 1 and 0.5 %. FILE.reference keeps the reference for the "
-    "next time; work that was stopped goes on there.\n"
+    "the error between the vertices against CPU time and against their number (by rays, fitted, refined and to "
+    "tolerances), with a table of the numbers and the settings to use for 5, 2, 1 and 0.5 %. FILE.reference and "
+    "FILE.places keep the references for the next time; work that was stopped goes on there.\n"
     "\n"
     "Examples:\n"
     "  shbake chart bunny.obj -o bunny.html\n"

@@ -84,7 +84,7 @@ class Chart(unittest.TestCase):
         result = self.chart("box.json")
         self.assertIn("made anew", result.stdout)
         self.assertEqual(cache.read_bytes(), kept)
-        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["box.json", "box.json.reference", "box.obj"])
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["box.json", "box.json.places", "box.json.reference", "box.obj"])
 
     @unittest.skipUnless(HAS_GNUPLOT, "gnuplot is not installed")
     def test_pictures_and_pages(self):

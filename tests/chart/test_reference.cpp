@@ -19,7 +19,7 @@ namespace {
 const Deadline kLong(1000), kOver(0);
 
 MadeReference make(Bench& bench, const ReferenceOptions& options, const Deadline& deadline = kLong) {
-  return makeReference(bench.bed, bench.all, options, deadline, Parallel(1), bench.progress);
+  return makeReference(bench.points, bench.bed.exact(), bench.all, options, deadline, Parallel(1), bench.progress);
 }
 
 std::string read(const std::string& path) {
@@ -110,7 +110,8 @@ TEST_CASE("a cancelled reference keeps what it has, and no half file", "[referen
   const ReferenceOptions options{.order = 3, .rays = 1024, .cache = folder.file("cache")};
   const double enough = 100.0 * (1024 + 960);  // rays of 100 points: in the fourth batch
   Progress stopped([&](const ProgressState& s) { return s.done < enough; }, Progress::Duration(0));
-  CHECK_THROWS_AS(makeReference(bench.bed, bench.all, options, kLong, Parallel(1), stopped), Error);
+  CHECK_THROWS_AS(makeReference(bench.points, bench.bed.exact(), bench.all, options, kLong, Parallel(1), stopped),
+                  Error);
   CHECK(folder.files() == 1);
   const MadeReference rest = make(bench, options);
   CHECK(rest.cache == CacheUse::resumed);
