@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/loop_order.h"
 
 namespace shbake {
 
@@ -34,9 +35,12 @@ Parallel::~Parallel() = default;
 
 void Parallel::forBlocks(std::size_t count, std::size_t blockSize, const Block& body) const {
   const std::size_t blocks = (count + blockSize - 1) / blockSize;
+  LoopOrder order(threads_);
   arena_->arena.execute([&] {
     tbb::parallel_for(std::size_t(0), blocks, [&](std::size_t b) {
-      body(b * blockSize, std::min(count, (b + 1) * blockSize), tbb::this_task_arena::current_thread_index());
+      const int worker = tbb::this_task_arena::current_thread_index();
+      const LoopOrder::Block block(order, worker);
+      body(b * blockSize, std::min(count, (b + 1) * blockSize), worker);
     });
   });
 }
