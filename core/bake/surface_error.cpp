@@ -21,12 +21,8 @@
 namespace shbake {
 namespace {
 
-/// Rays in one set of a sample, for each that the bake took: at an error of N^-3/4, both sets together have a fifth of
-/// the bake's noise.
-constexpr int kTruthRays = 4;
-/// A set has at least this many, since the noise of few rays would hide small errors however it is subtracted,
-constexpr int kLeastTruthRays = 512;
-/// and no more than this, or as many as the bake, whose table of directions would not fit the memory at more.
+/// A set has no more rays than this, or as many as the bake, whose table of directions would not fit the memory at
+/// more.
 constexpr int kMostTruthRays = 65536;
 /// 97.5 % quantile of the normal distribution.
 constexpr double kConfidence = 1.959963984540054;
@@ -39,7 +35,7 @@ class SurfaceMeter {
                Progress& progress)
       : points_(std::move(points)), baked_(baked), bake_(bake), parallel_(parallel), progress_(progress) {}
 
-  SurfaceError run(std::size_t faces, std::size_t samples) {
+  SurfaceError run(std::size_t faces, std::size_t samples, const TruthRays& rays) {
     result_.samples = samples;
     firstSample_ = points_.size();
     places_ = drawPlaces(points_, areaWeights(points_, faces), samples, hashBits(bake_.seed, kPlaces), progress_);
@@ -48,7 +44,7 @@ class SurfaceMeter {
     if (bake_.kind == TransferKind::unshadowed) {
       measureUnshadowed();
     } else {
-      measureTraced();
+      measureTraced(rays);
     }
     summarise();
     return result_;
@@ -87,14 +83,14 @@ class SurfaceMeter {
     return &fewerBounces_.emplace(bakePoints(points_, {}, oneLess, parallel_, progress_).transfer);
   }
 
-  void measureTraced() {
+  void measureTraced(const TruthRays& rays) {
     const TransferSet* senders = findSenders();
     addPlaces(points_, places_);
     const auto maxDistance = static_cast<float>(bake_.maxDistance * points_.frame.scale);
     const RayScene scene(points_, maxDistance, parallel_, progress_);
     const int most = std::max(kMostTruthRays, bake_.rays);
     const DirectionSet directions(
-        std::max(kLeastTruthRays, bake_.rays > most / kTruthRays ? most : kTruthRays * bake_.rays), baked_.order);
+        std::max(rays.least, bake_.rays > most / rays.perRay ? most : rays.perRay * bake_.rays), baked_.order);
     result_.rays = 2 * directions.size();
     std::vector<SurfaceTracer> first, second;
     for (int i = 0; i < parallel_.threads(); ++i) {
@@ -173,7 +169,7 @@ SurfaceError measureSurfaceError(LightingPoints points, const TransferSet& baked
   }
   const std::size_t faces = options.faces == 0 ? points.faces.size() : std::min(options.faces, points.faces.size());
   SurfaceMeter meter(std::move(points), baked, bake, parallel, progress);
-  return meter.run(faces, (options.samples + 1) / 2 * 2);
+  return meter.run(faces, (options.samples + 1) / 2 * 2, options.rays);
 }
 
 }  // namespace shbake

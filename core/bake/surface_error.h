@@ -22,12 +22,23 @@
 
 namespace shbake {
 
+/// Rays in each of the two sets of a sample: their noise cancels in the mean, but scatters it, and the worst error is
+/// that of one sample.
+struct TruthRays {
+  /// For each ray of the bake, 1 or more: at an error of N^-3/4, both sets of four times as many have a fifth of the
+  /// bake's noise.
+  int perRay = 4;
+  /// A set has at least this many, since the noise of few rays would hide small errors however it is subtracted.
+  int least = 512;
+};
+
 struct SurfaceErrorOptions {
   /// Points to measure at, 16..1048576, rounded up to an even number. The relative error of the RMS falls as their
   /// inverse square root, from about 4 % at 1024 of a smoothly spread error.
   std::size_t samples = 1024;
   /// The first faces of the points, which are measured; those behind them only block and reflect. 0: all.
   std::size_t faces = 0;
+  TruthRays rays{};
 
   static constexpr std::size_t kLeastSamples = 16, kMostSamples = 1 << 20;
 };
@@ -36,7 +47,7 @@ struct SurfaceErrorOptions {
 void validate(const SurfaceErrorOptions& options);
 
 /// Measures the transfer that bakePoints() gave with the options `bake`, where `rays` must be the number that it took;
-/// corners of measured faces must have been wanted. Each sample takes two sets of four times as many rays. What faces
+/// corners of measured faces must have been wanted. Each sample takes two sets of options.rays. What faces
 /// reflect to a sample is what was baked for them, interpolated; where reflections were summed to a count, what is
 /// baked again with one less. Faces without area or with black corners have no relative error and are left out: the
 /// result has no samples where all are. Deterministic: depends on `points`, `baked` and options alone.

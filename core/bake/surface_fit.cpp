@@ -73,8 +73,14 @@ class SurfaceFitter {
     PlaceTracer tracer(points_, baked_, findSenders(), bake_, parallel_, progress_);
     HeldOutSamples held =
         options_.kind == FitKind::automatic ? lookAround(tracer) : holdOut(tracer, kPilotSamples, rays_, kPilot);
+    const SampledMean before = held.squaredError(baked_.coefficients);
+    if (isEnough(before)) {
+      report_.before = report_.after = rootOf(before);
+      report_.rays = tracer.rays();
+      return stop("the surface error is within the tolerance as it is");
+    }
     if (options_.kind == FitKind::automatic) smooth(held);
-    if (const char* useless = whyUseless(held.squaredError(baked_.coefficients).mean, held)) {
+    if (const char* useless = whyUseless(before.mean, held)) {
       report_.reason = useless;
     } else {
       const std::size_t judges =
@@ -140,7 +146,7 @@ class SurfaceFitter {
       if (count >= static_cast<double>(kPilotSamples)) break;
       HeldOutSamples held = holdOut(tracer, roundedToEven(count), rays, kGlance + i * kStreamsOfSamples);
       const SampledMean before = held.squaredError(baked_.coefficients);
-      if (whyUseless(before.mean + kConfidence * before.error, held)) return held;
+      if (isEnough(before) || whyUseless(highOf(before), held)) return held;
     }
     return holdOut(tracer, kPilotSamples, rays_, kPilot);
   }
@@ -173,6 +179,12 @@ class SurfaceFitter {
     const std::vector<float> smoothed = smoothedCoefficients(points_, wanted_, baked_, parallel_, progress_);
     const RegionalShares shares = held.chooseShares(values_, smoothed);
     if (shares.takesAny()) report_.smoothedPoints = take(smoothed, shares);
+  }
+
+  static double highOf(const SampledMean& square) { return square.mean + kConfidence * square.error; }
+
+  bool isEnough(const SampledMean& before) const {
+    return options_.kind == FitKind::automatic && highOf(before) <= options_.enough * options_.enough;
   }
 
   /// Why a fit cannot help, in words; null where it may. `before` is the squared error of the points as baked.
@@ -270,6 +282,9 @@ void validate(const SurfaceFitOptions& o) {
   require(o.samplesPerPoint >= 1 && o.samplesPerPoint <= 64, "samples per point", o.samplesPerPoint, "use 1 to 64");
   require(o.raysPerSample == 0 || (o.raysPerSample >= 16 && o.raysPerSample <= 65536), "rays per sample",
           o.raysPerSample, "use 16 to 65536, or 0 to choose by the bake's rays");
+  if (!(o.enough >= 0)) {
+    throw usageError("the error that needs no fit, " + std::to_string(o.enough) + ", is out of range", "use 0 or more");
+  }
 }
 
 FitReport fitToSurface(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, PointBake& baked,

@@ -34,6 +34,9 @@ struct SurfaceFitOptions {
   /// Rays from each of these places, 16..65536; 0: a quarter of the bake's, 32 to 256, so that a fit at the default
   /// number of places takes about the time of the bake.
   int raysPerSample = 0;
+  /// Relative RMS, 0 or more: where the pilot is sure that points err no more than that between them, an automatic fit
+  /// leaves them as they are.
+  double enough = 0;
 };
 
 /// Throws a usage error that names the first option out of its range.
@@ -64,10 +67,10 @@ struct FitReport {
 /// points and options; only its coefficients change, and those of points that are not wanted do not. Its stated errors
 /// and visibility stay those of the points as they were traced: a fitted value is off from the transfer at the vertex
 /// on purpose, and `after` says how well it does.
-///   vertex: nothing is done. automatic: a pilot measures the surface error, tries smoothing (smoothing.h), and stops
-///   where interpolation errs less than the noise of the rays, on small meshes at a glance; else values are fitted, and
-///   each region takes as much of the fit as the pilot's samples show to help. surface: values are fitted everywhere,
-///   unasked.
+///   vertex: nothing is done. automatic: a pilot measures the surface error, stops where that is good enough, tries
+///   smoothing (smoothing.h), and stops where interpolation errs less than the noise of the rays, on small meshes at a
+///   glance; else values are fitted, and each region takes as much of the fit as the pilot's samples show to help.
+///   surface: values are fitted everywhere, unasked.
 /// Unshadowed transfer stays as it is. Deterministic: depends on points, options and seed only. Memory: about 16 bytes
 /// for each coefficient of the result, 600 a point, and for each sample in a batch of at most a million 150 and one row
 /// of the result, beside the ray scene; `bake.memory` changes nothing. Throws as bakePoints(), and leaves `baked` as it

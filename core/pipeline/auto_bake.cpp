@@ -6,7 +6,10 @@
 #include <numeric>
 #include <utility>
 
+#include "bake/interpolation_error.h"
+#include "bake/surface_places.h"
 #include "base/error.h"
+#include "base/hash.h"
 #include "mesh/convexity.h"
 #include "pipeline/auto_refine.h"
 #include "pipeline/light_order.h"
@@ -29,11 +32,19 @@ constexpr Left kPlainLeft{1, 0.5};
 /// The same where values are fitted or smoothed as samples tell; measured on the scenes of bench_surface, where 0.6 to
 /// 0.85 and 0.2 to 0.5 are left: near the upper ends, for a second bake costs more than the vertices that it saves.
 constexpr Left kFittedLeft{0.85, 0.4};
-/// Errors that the vertices may have, in tolerances, whatever interpolation leaves to them.
-constexpr double kLeastNoise = 0.45, kMostNoise = 1.5;
+/// The error that the vertices may always have, in tolerances, however little interpolation leaves to them.
+constexpr double kLeastNoise = 0.45;
 /// Places that find an error of 1 on a share tolerance^2 of the surface this often.
 constexpr double kFinds = 4;
 constexpr double kLeastSamples = 2048, kMostSamples = 16384;
+/// Rays of each set of such a place. So many places need few: even where vertices have all of the tolerance as noise,
+/// that of one place is no more than the tolerance.
+constexpr TruthRays kJudgeRays{1, 64};
+/// Places and rays that tell what interpolation misses where no refinement has measured it. Their noise cancels.
+constexpr std::size_t kGlancePlaces = 512;
+constexpr int kGlanceRays = 32;
+/// The stream of random numbers of that glance.
+constexpr std::uint64_t kGlance = 32;
 /// Bakes until the tolerance is met, each aiming lower than the last by what that missed.
 constexpr int kMostBakes = 3;
 
@@ -140,6 +151,8 @@ class AutoBaker {
       const double finds = kFinds / (tolerance() * tolerance());
       options_.surfaceSamples = static_cast<std::size_t>(std::clamp(finds, kLeastSamples, kMostSamples));
     }
+    options_.surfaceRays = kJudgeRays;
+    options_.fit.enough = tolerance();
     double aim = kAim * tolerance();
     for (int bake = 1;; ++bake) {
       bakeOnce(aim);
@@ -164,14 +177,15 @@ class AutoBaker {
   void bakeOnce(double aim) {
     refine(aim);
     if (choose_.tolerance) chooseNoise(aim);
-    const bool isAsGiven = !refined_ || refined_->refined.mesh.positions.size() == mesh_.positions.size();
-    if (isAsGiven) {
+    if (isAsGiven()) {
       result_.baked = bakeMesh(mesh_, blockers_.size(), takeScene(), options_, parallel_, progress_);
     } else {
       scene_.reset();
       result_.baked = bakeMesh(refined_->refined.mesh, blockers_, options_, parallel_, progress_);
     }
   }
+
+  bool isAsGiven() const { return !refined_ || refined_->refined.mesh.positions.size() == mesh_.positions.size(); }
 
   void refine(double aim) {
     const RefinementOptions& refinement = choose_.refinement;
@@ -190,13 +204,35 @@ class AutoBaker {
                                        refine, parallel_, progress_);
   }
 
-  /// The error that vertices may have, beside what interpolation is known to miss.
+  /// The error that vertices may have, beside what interpolation misses.
   void chooseNoise(double aim) {
-    if (!openRays_) return;
+    if (!openRays_ || options_.bake.kind == TransferKind::unshadowed) return;
     const bool judged = refined_ && refined_->rounds > 0;
-    const double missed = judged ? left().missed * refined_->after : kInterpolationShare * aim;
+    const double missed = left().missed * (judged ? refined_->after : glance());
     const double noise = std::sqrt(std::max(0.0, aim * aim - missed * missed) / left().noise);
-    options_.bake.tolerance = std::clamp(noise, kLeastNoise * aim, std::min(1.0, kMostNoise * aim));
+    options_.bake.tolerance = std::clamp(noise, kLeastNoise * aim, 1.0);
+  }
+
+  /// What interpolation misses on the mesh that is baked, but for reflections, which change more slowly.
+  double glance() {
+    if (glanced_) return *glanced_;
+    if (isAsGiven()) return glanceAt(scene().points, mesh_.triangles.size());
+    const Mesh& mesh = refined_->refined.mesh;
+    return glanceAt(makeScenePoints(mesh, blockers_, options_.points, options_.albedo, progress_).points,
+                    mesh.triangles.size());
+  }
+
+  double glanceAt(const LightingPoints& points, std::size_t faces) {
+    BakeOptions probe = options_.bake;
+    probe.kind = TransferKind::shadowed;
+    probe.rays = kGlanceRays;
+    probe.seed = hashBits(probe.seed, kGlance);
+    const std::vector<double> areas = areaWeights(points, faces);
+    const std::vector<SurfacePlace> places = drawPlaces(points, areas, kGlancePlaces, probe.seed, progress_);
+    const std::vector<double> squares = interpolationSquares(points, places, probe, parallel_, progress_);
+    const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
+    glanced_ = std::sqrt(std::max(0.0, sum) / static_cast<double>(std::max<std::size_t>(1, squares.size())));
+    return *glanced_;
   }
 
   void nameNewVertices() {
@@ -295,6 +331,7 @@ class AutoBaker {
   bool openRays_;
   std::optional<ScenePoints> scene_;  // see scene()
   std::optional<AutoRefinement> refined_;
+  std::optional<double> glanced_;  // see glance()
   AutoBake result_;
 };
 

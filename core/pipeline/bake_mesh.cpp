@@ -199,7 +199,7 @@ BakedMesh bakeMesh(Mesh mesh, std::size_t blockers, ScenePoints scene, const Bak
   if (options.surfaceSamples > 0) {
     BakeOptions done = options.bake;
     done.rays = baked.rays;
-    const SurfaceErrorOptions surface{options.surfaceSamples, result.mesh.triangles.size()};
+    const SurfaceErrorOptions surface{options.surfaceSamples, result.mesh.triangles.size(), options.surfaceRays};
     result.facts.surface = measureSurfaceError(std::move(points), baked.transfer, done, surface, parallel, progress);
     if (result.facts.surface.samples == 0) {
       result.warnings.push_back("the surface error was not measured: no face has an area and reflects light");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bake/bake_options.h"
+#include "bake/surface_error.h"
 #include "bake/surface_fit.h"
 #include "base/parallel.h"
 #include "base/progress.h"
@@ -26,6 +27,7 @@ struct BakeMeshOptions {
   SurfaceFitOptions fit;
   /// Points at which the surface error is measured after the bake (bake/surface_error.h), 16..1048576; 0: it is not.
   std::size_t surfaceSamples = 0;
+  TruthRays surfaceRays{};  ///< of each of them
 };
 
 /// A baked mesh, ready to be written: one transfer vector for each vertex of `mesh`.

@@ -19,10 +19,10 @@ namespace {
 constexpr double kRounding = 1e-6;
 
 SurfaceError measure(const LightingPoints& points, const TransferSet& baked, const BakeOptions& bake,
-                     std::size_t samples = 1024, std::size_t faces = 0, int threads = 1) {
+                     std::size_t samples = 1024, std::size_t faces = 0, int threads = 1, const TruthRays& rays = {}) {
   const Parallel parallel(threads);
   Progress progress;
-  return measureSurfaceError(points, baked, bake, {samples, faces}, parallel, progress);
+  return measureSurfaceError(points, baked, bake, {samples, faces, rays}, parallel, progress);
 }
 
 template <class T, class OfCorner>
@@ -144,26 +144,34 @@ TEST_CASE("the noise of the rays is subtracted without bias", "[surface_error]")
     std::copy(t.begin(), t.end(), &exact.coefficients[pointOfVertex(points, v) * 9]);
   }
   constexpr int kSeeds = 24;
-  Samples squares, noise;
-  for (int seed = 0; seed < kSeeds; ++seed) {
-    options.seed = static_cast<std::uint64_t>(seed);
-    squares.add(std::vector<double>{square(measure(points, exact, options, 256, 2))});
-    // The variance of one set of the 512 rays that samples take at least.
-    const TransferSet traced = bakeAll(points, optionsOf(TransferKind::shadowed, kOrder, 512, options.seed)).transfer;
-    double variance = 0;
-    for (std::uint32_t v = 0; v < 4; ++v) {
-      const auto row = traced.at(pointOfVertex(points, v), 0), truth = exact.at(pointOfVertex(points, v), 0);
-      for (std::size_t k = 0; k < 9; ++k) {
-        const double off = k == 0 ? offset * sh::unshadowedNorm(kOrder) : 0;
-        variance += std::pow((double(row[k]) - double(truth[k]) + off) / sh::unshadowedNorm(kOrder), 2) / 4;
+  // Sets of more rays than the bake's, of as many, and of the least.
+  for (const TruthRays& rays : {TruthRays{4, 16}, TruthRays{1, 16}, TruthRays{1, 512}}) {
+    const int count = std::max(rays.perRay * options.rays, rays.least);
+    INFO(count << " rays");
+    Samples squares, noise;
+    for (int seed = 0; seed < kSeeds; ++seed) {
+      options.seed = static_cast<std::uint64_t>(seed);
+      const SurfaceError measured = measure(points, exact, options, 256, 2, 1, rays);
+      CHECK(measured.rays == 2 * count);
+      squares.add(std::vector<double>{square(measured)});
+      // The variance of one set.
+      const TransferSet traced =
+          bakeAll(points, optionsOf(TransferKind::shadowed, kOrder, count, options.seed)).transfer;
+      double variance = 0;
+      for (std::uint32_t v = 0; v < 4; ++v) {
+        const auto row = traced.at(pointOfVertex(points, v), 0), truth = exact.at(pointOfVertex(points, v), 0);
+        for (std::size_t k = 0; k < 9; ++k) {
+          const double off = k == 0 ? offset * sh::unshadowedNorm(kOrder) : 0;
+          variance += std::pow((double(row[k]) - double(truth[k]) + off) / sh::unshadowedNorm(kOrder), 2) / 4;
+        }
       }
+      noise.add(std::vector<double>{variance});
     }
-    noise.add(std::vector<double>{variance});
+    const double limit = errorLimit(1, kSeeds) * squares.standardError(0);
+    CHECK(std::abs(squares.mean(0) - offset * offset) < limit);
+    // Left in, the noise of the mean of two sets would be found out.
+    CHECK(noise.mean(0) / 2 > 3 * limit);
   }
-  const double limit = errorLimit(1, kSeeds) * squares.standardError(0);
-  CHECK(std::abs(squares.mean(0) - offset * offset) < limit);
-  // Left in, the noise of the mean of two sets would be found out.
-  CHECK(noise.mean(0) / 2 > 3 * limit);
 }
 
 TEST_CASE("unshadowed transfer is measured in closed form", "[surface_error]") {

@@ -159,6 +159,29 @@ TEST_CASE("where rays are few their noise is smoothed, not fitted", "[surface_fi
   CHECK(measure(points, fitted.after, bake).rms < measure(points, fitted.before, bake).rms);
 }
 
+TEST_CASE("what is good enough as it is stays as it is", "[surface_fit]") {
+  const LightingPoints points = pointsOf(floorAndWall(3));
+  const BakeOptions bake = optionsOf(TransferKind::shadowed, 2, 256);
+  SurfaceFitOptions options = kindOf(FitKind::automatic);
+  const HeldOutError before = bakeAndFit(points, bake, options).report.before;
+  REQUIRE(before.low > 0);
+  options.enough = 2 * before.high;
+  const Fitted left = bakeAndFit(points, bake, options);
+  CHECK(left.after.coefficients == left.before.coefficients);
+  CHECK(left.report.reason == "the surface error is within the tolerance as it is");
+  CHECK(left.report.fittedRays == 0);
+  CHECK(left.report.after.rms == left.report.before.rms);
+  CHECK(left.report.after.high <= options.enough);
+  options.enough = before.low / 2;
+  const Fitted fitted = bakeAndFit(points, bake, options);
+  CHECK(fitted.report.fittedPoints > 0);
+  CHECK(fitted.report.fittedRays >= 32 * static_cast<double>(fitted.report.samples));
+  // Whoever asks for a fit gets it.
+  options.kind = FitKind::surface;
+  options.enough = 1;
+  CHECK(bakeAndFit(points, bake, options).report.fittedPoints > 0);
+}
+
 TEST_CASE("the choice is never worse than point sampling", "[surface_fit]") {
   std::vector<std::pair<std::string, Mesh>> meshes{{"cavity", shapes::openCavity(2, 0.08, 25)},
                                                    {"chess piece", shapes::chessPiece(1)},
