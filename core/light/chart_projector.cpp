@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <ranges>
 
 #include "base/error.h"
-#include "sh/basis.h"
 
 namespace shbake {
 namespace {
@@ -70,17 +70,19 @@ struct ChartProjector::View {
   const Rgb* row(int y) const { return pixels + static_cast<std::size_t>(y - firstRow) * stride; }
 };
 
+/// A tile or its mirror image.
+struct ChartProjector::Side {
+  std::vector<const float*> rows;  ///< of the tile's pixels
+  std::vector<Rgb> masked;         ///< the tile's pixels, black where they do not count
+  std::vector<double> moments;     ///< [node across][node down][channel]
+};
+
 struct ChartProjector::Scratch {
-  std::span<Vec3d> sum;
-  std::vector<double> y;
-  std::vector<double> pixel;  ///< integrals of y_lm over the part of a pixel
+  Side left, right;
   TileTable::Scratch table;
-  std::vector<const float*> rows;      ///< of the tile's pixels
-  std::vector<Rgb> masked;             ///< the tile's pixels, black where they do not count
   std::vector<double> columnMoments;   ///< [node down][column][channel]
   std::vector<double> turned;          ///< the same as [column][node down][channel]
   std::vector<const double*> columns;  ///< of `turned`
-  std::vector<double> moments;         ///< [node across][node down][channel]
 };
 
 ChartProjector::ChartProjector(const MapShape& shape, int order) : shape_(shape), order_(order) {
@@ -146,42 +148,59 @@ std::vector<RowStrip> ChartProjector::strips() const {
   return strips;
 }
 
+/// The tile at the other end of its rows.
+ChartProjector::Tile ChartProjector::mirrored(const Tile& tile) const {
+  return {size_ - tile.x1, size_ - tile.x0, tile.y0, tile.y1};
+}
+
 void ChartProjector::project(const RowStrip& strip, std::span<const Rgb> pixels, std::span<Vec3d> sum) const {
   Scratch scratch;
-  scratch.sum = sum;
-  scratch.y.resize(sum.size());
   const std::vector<int> columns = cuts();
+  const auto isCut = [&](int x) { return std::binary_search(columns.begin(), columns.end(), x); };
   for (const CubeFace& chart : charts_) {
     if (strip.begin < chart.y || strip.begin >= chart.y + size_) continue;
     const int top = strip.begin - chart.y, bottom = strip.end - chart.y;
     const View view{chart, pixels.data() + chart.x, top, shape_.width};
+    ChartSum points(shape_.layout, chart, order_, sum);
     for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
-      const Tile tile{columns[i], columns[i + 1], top, bottom};
-      if (shape_.layout == MapLayout::angular) {
-        addRimTile(view, tile, scratch);
-      } else {
-        addTile(view, tile, scratch);
-      }
+      const Tile tile{columns[i], columns[i + 1], top, bottom}, other = mirrored(tile);
+      const bool isPaired = tile.x0 != other.x0 && isCut(other.x0) && isCut(other.x1);
+      if (!isPaired || tile.x0 < other.x0) addTile(view, tile, isPaired, scratch, points);
     }
+    points.flush();
   }
 }
 
-/// Adds the tile to the sum.
-void ChartProjector::addTile(const View& view, const Tile& tile, Scratch& scratch) const {
-  scratch.rows.clear();
-  for (int y = tile.y0; y < tile.y1; ++y) scratch.rows.push_back(&view.row(y)[tile.x0].x);
-  addMoments(view.chart, tile, scratch);
+/// Adds the tile, and its mirror image where they are a pair. Of an angular map, what lies within the circle: whole
+/// pixels together, as y_lm and the solid angle go on smoothly beyond the rim, and those that the rim cuts one by one.
+void ChartProjector::addTile(const View& view, const Tile& tile, bool isPaired, Scratch& scratch, ChartSum& sum) const {
+  const Area area = areaOf(tile);
+  const bool angular = shape_.layout == MapLayout::angular;
+  if (angular && area.nearest() >= 1) return;
+  if (angular && area.farthest() > 1) {
+    if (!takeWithinRim(view, tile, isPaired, scratch, sum)) return;
+  } else {
+    takeRows(view, tile, scratch.left);
+    if (isPaired) takeRows(view, mirrored(tile), scratch.right);
+  }
+  findMoments(tile, scratch, scratch.left);
+  if (isPaired) findMoments(mirrored(tile), scratch, scratch.right);
+  addNodes(tile, isPaired, scratch, sum);
 }
 
-/// Adds the tile of scratch.rows: colours meet the polynomials of their row, then of their column, then y_lm in the
-/// nodes.
-void ChartProjector::addMoments(const CubeFace& chart, const Tile& tile, Scratch& scratch) const {
+void ChartProjector::takeRows(const View& view, const Tile& tile, Side& side) const {
+  side.rows.clear();
+  for (int y = tile.y0; y < tile.y1; ++y) side.rows.push_back(&view.row(y)[tile.x0].x);
+}
+
+/// Finds the moments of the colours of a tile with the polynomials of their row, then of their column.
+void ChartProjector::findMoments(const Tile& tile, Scratch& scratch, Side& side) const {
   const TileTable& across = tables_[tile.x1 - tile.x0 - 1];
   const TileTable& down = tables_[tile.y1 - tile.y0 - 1];
   const int na = static_cast<int>(across.nodes().size()), nb = static_cast<int>(down.nodes().size());
   const int width = tile.x1 - tile.x0, stride = 3 * nb;
   scratch.columnMoments.resize(static_cast<std::size_t>(stride) * width);
-  down.contract<float>(scratch.rows, 3 * width, scratch.columnMoments, scratch.table);
+  down.contract<float>(side.rows, 3 * width, scratch.columnMoments, scratch.table);
 
   scratch.turned.resize(scratch.columnMoments.size());
   scratch.columns.clear();
@@ -190,97 +209,105 @@ void ChartProjector::addMoments(const CubeFace& chart, const Tile& tile, Scratch
     scratch.columns.push_back(column);
     for (int b = 0; b < nb; ++b) std::copy_n(&scratch.columnMoments[(b * width + x) * 3], 3, column + 3 * b);
   }
-  scratch.moments.resize(static_cast<std::size_t>(stride) * na);
-  across.contract<double>(scratch.columns, stride, scratch.moments, scratch.table);
+  side.moments.resize(static_cast<std::size_t>(stride) * na);
+  across.contract<double>(scratch.columns, stride, side.moments, scratch.table);
+}
 
+/// Adds the nodes of the tile, each with its mirror image.
+void ChartProjector::addNodes(const Tile& tile, bool isPaired, const Scratch& scratch, ChartSum& sum) const {
+  const std::vector<double>& across = tables_[tile.x1 - tile.x0 - 1].nodes();
+  const std::vector<double>& down = tables_[tile.y1 - tile.y0 - 1].nodes();
   const Area area = areaOf(tile);
   const double halfWidth = (area.s1 - area.s0) / 2, halfHeight = (area.t1 - area.t0) / 2;
-  for (int b = 0; b < nb; ++b) {
+  const auto moment = [&](const Side& side, std::size_t a, std::size_t b) {
+    const double* m = &side.moments[3 * (a * down.size() + b)];
+    return halfWidth * halfHeight * Vec3d{m[0], m[1], m[2]};
+  };
+  for (std::size_t b = 0; b < down.size(); ++b) {
     // Rows go down while t goes up.
-    const double t = area.t1 - halfHeight * (1 + down.nodes()[b]);
-    for (int a = 0; a < na; ++a) {
-      const double s = area.s0 + halfWidth * (1 + across.nodes()[a]);
-      const double weight = halfWidth * halfHeight * evaluateAt(chart, s, t, scratch);
-      const double* m = &scratch.moments[a * stride + 3 * b];
-      const Vec3d color = weight * Vec3d{m[0], m[1], m[2]};
-      for (std::size_t i = 0; i < scratch.y.size(); ++i) scratch.sum[i] += scratch.y[i] * color;
-    }
-  }
-}
-
-/// Evaluates y_lm in the direction of the chart's point (s, t) into scratch.y; returns the solid angle per area there.
-double ChartProjector::evaluateAt(const CubeFace& chart, double s, double t, Scratch& scratch) const {
-  Vec3d direction;
-  double density;
-  if (shape_.layout == MapLayout::angular) {
-    const double r = std::sqrt(s * s + t * t), sine = std::sin(pi * r), cosine = std::cos(pi * r);
-    const double slope = r > 0 ? sine / r : pi;
-    direction = cosine * chart.forward + slope * (s * chart.right + t * chart.up);
-    density = pi * slope;
-  } else {
-    const double inverse = 1 / std::sqrt(1 + s * s + t * t);
-    direction = inverse * (chart.forward + s * chart.right + t * chart.up);
-    density = inverse * inverse * inverse;
-  }
-  sh::evaluate(order_, direction, scratch.y);
-  return density;
-}
-
-/// Adds the part of the tile that lies within the circle of an angular map: its whole pixels together, as y_lm and the
-/// solid angle go on smoothly beyond the rim, and those that the rim cuts one by one.
-void ChartProjector::addRimTile(const View& view, const Tile& tile, Scratch& scratch) const {
-  const Area area = areaOf(tile);
-  if (area.farthest() <= 1) return addTile(view, tile, scratch);
-  if (area.nearest() >= 1) return;
-  const int width = tile.x1 - tile.x0;
-  scratch.masked.assign(static_cast<std::size_t>(width) * (tile.y1 - tile.y0), Rgb{});
-  scratch.rows.clear();
-  bool any = false;
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    Rgb* const row = &scratch.masked[static_cast<std::size_t>(y - tile.y0) * width];
-    scratch.rows.push_back(&row->x);
-    const Area strip = areaOf({tile.x0, tile.x1, y, y + 1});
-    if (strip.nearest() >= 1) continue;
-    if (strip.farthest() <= 1) {
-      std::copy_n(&view.row(y)[tile.x0], width, row);
-      any = true;
-      continue;
-    }
-    for (int x = tile.x0; x < tile.x1; ++x) {
-      const Tile pixel{x, x + 1, y, y + 1};
-      const Area cell = areaOf(pixel);
-      if (cell.farthest() <= 1) {
-        row[x - tile.x0] = view.row(y)[x];
-        any = true;
-      } else if (cell.nearest() < 1) {
-        addRimPixel(view, pixel, scratch);
+    const double t = area.t1 - halfHeight * (1 + down[b]);
+    for (std::size_t a = 0; a < across.size(); ++a) {
+      const double s = area.s0 + halfWidth * (1 + across[a]);
+      if (isPaired) {
+        sum.addPair(s, t, moment(scratch.left, a, b), moment(scratch.right, across.size() - 1 - a, b));
+      } else {
+        sum.add(s, t, moment(scratch.left, a, b));
       }
     }
   }
-  if (any) addMoments(view.chart, tile, scratch);
+}
+
+/// Takes the whole pixels of a tile that the rim crosses, the others as black, and adds those that are cut. Returns
+/// whether there are whole ones.
+bool ChartProjector::takeWithinRim(const View& view, const Tile& tile, bool isPaired, Scratch& scratch,
+                                   ChartSum& sum) const {
+  const int width = tile.x1 - tile.x0;
+  const auto clear = [&](Side& side) {
+    side.rows.clear();
+    side.masked.assign(static_cast<std::size_t>(width) * (tile.y1 - tile.y0), Rgb{});
+    for (int y = 0; y < tile.y1 - tile.y0; ++y)
+      side.rows.push_back(&side.masked[static_cast<std::size_t>(y) * width].x);
+  };
+  clear(scratch.left);
+  if (isPaired) clear(scratch.right);
+  bool any = false;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    const Rgb* const row = view.row(y);
+    const std::size_t at = static_cast<std::size_t>(y - tile.y0) * width;
+    const Stretch touched = stretchOf(tile, y, &Area::nearest), whole = stretchOf(tile, y, &Area::farthest);
+    const auto addRim = [&](int first, int last) {
+      for (int x = first; x < last; ++x) {
+        const Vec3d color(row[x]), other(row[size_ - 1 - x]);
+        addRimPixel(areaOf({x, x + 1, y, y + 1}), color, isPaired ? &other : nullptr, sum);
+      }
+    };
+    addRim(touched.first, whole.first);
+    addRim(whole.last, touched.last);
+    if (whole.first == whole.last) continue;
+    any = true;
+    std::copy(row + whole.first, row + whole.last, &scratch.left.masked[at + (whole.first - tile.x0)]);
+    if (isPaired) {
+      std::copy(row + (size_ - whole.last), row + (size_ - whole.first),
+                &scratch.right.masked[at + (tile.x1 - whole.last)]);
+    }
+  }
+  return any;
+}
+
+/// The pixels of row y of a tile whose squared distance, the nearest or the farthest, is below 1: those that the circle
+/// touches, or that lie within it as a whole. They follow each other; empty stretches lie where the circle is nearest.
+ChartProjector::Stretch ChartProjector::stretchOf(const Tile& tile, int y, double (Area::*distance)() const) const {
+  const auto isWithin = [&](int x) { return (areaOf({x, x + 1, y, y + 1}).*distance)() < 1; };
+  const int innermost = std::clamp(size_ / 2, tile.x0, tile.x1 - 1);
+  if (!isWithin(innermost)) return {innermost, innermost};
+  // Distances rise from the innermost pixel to both sides.
+  const auto from = std::views::iota(tile.x0, innermost), to = std::views::iota(innermost + 1, tile.x1);
+  const auto first = std::partition_point(from.begin(), from.end(), [&](int x) { return !isWithin(x); });
+  const auto last = std::partition_point(to.begin(), to.end(), isWithin);
+  return {first == from.end() ? innermost : *first, last == to.end() ? tile.x1 : *last};
 }
 
 /// Adds the part of one pixel that lies within the circle. The outer variable is the one along which the circle is
 /// flatter; between the places where it enters or leaves the pixel, the ends of the inner integral are smooth.
-void ChartProjector::addRimPixel(const View& view, const Tile& tile, Scratch& scratch) const {
-  const Area area = areaOf(tile);
+void ChartProjector::addRimPixel(const Area& area, const Vec3d& color, const Vec3d* mirroredColor,
+                                 ChartSum& sum) const {
   const bool outerIsS = std::abs(area.s0 + area.s1) < std::abs(area.t0 + area.t1);
   const double o0 = outerIsS ? area.s0 : area.t0, o1 = outerIsS ? area.s1 : area.t1;
   const double i0 = outerIsS ? area.t0 : area.s0, i1 = outerIsS ? area.t1 : area.s1;
 
-  std::vector<double> breaks{o0, o1};
+  std::array<double, 6> breaks{o0};
+  std::size_t count = 1;
   for (const double inner : {i0, i1}) {
     const double crossing = std::sqrt(std::max(0.0, (1 - inner) * (1 + inner)));
     for (const double at : {-crossing, crossing}) {
-      if (at > o0 && at < o1) breaks.push_back(at);
+      if (at > o0 && at < o1) breaks[count++] = at;
     }
   }
-  std::sort(breaks.begin(), breaks.end());
+  breaks[count] = o1;
+  std::sort(breaks.begin(), breaks.begin() + static_cast<std::ptrdiff_t>(count));
 
   const auto& [nodes, weights] = rimRule_;
-  std::vector<double>& integral = scratch.pixel;
-  integral.assign(scratch.y.size(), 0);
-  for (std::size_t piece = 0; piece + 1 < breaks.size(); ++piece) {
+  for (std::size_t piece = 0; piece < count; ++piece) {
     const double low = breaks[piece], half = (breaks[piece + 1] - low) / 2;
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       const double outer = low + half * (1 + nodes[a]);
@@ -288,15 +315,16 @@ void ChartProjector::addRimPixel(const View& view, const Tile& tile, Scratch& sc
       const double from = std::max(i0, -chord), halfChord = (std::min(i1, chord) - from) / 2;
       if (halfChord <= 0) continue;
       for (std::size_t b = 0; b < nodes.size(); ++b) {
-        const double inner = from + halfChord * (1 + nodes[b]);
-        const double density = evaluateAt(view.chart, outerIsS ? outer : inner, outerIsS ? inner : outer, scratch);
-        const double weight = weights[a] * weights[b] * half * halfChord * density;
-        for (std::size_t i = 0; i < integral.size(); ++i) integral[i] += weight * scratch.y[i];
+        const double inner = from + halfChord * (1 + nodes[b]), weight = weights[a] * weights[b] * half * halfChord;
+        const double s = outerIsS ? outer : inner, t = outerIsS ? inner : outer;
+        if (mirroredColor != nullptr) {
+          sum.addPair(s, t, weight * color, weight * *mirroredColor);
+        } else {
+          sum.add(s, t, weight * color);
+        }
       }
     }
   }
-  const Vec3d color(view.row(tile.y0)[tile.x0]);
-  for (std::size_t i = 0; i < integral.size(); ++i) scratch.sum[i] += integral[i] * color;
 }
 
 }  // namespace shbake

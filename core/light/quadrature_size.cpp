@@ -5,20 +5,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace shbake {
 namespace {
 
-/// The bound 4 M r^-n / (1 - 1/r) for n nodes and the best r. M bounds f on the ellipse whose half axes are (r + 1/r) /
-/// 2 and (r - 1/r) / 2 half lengths.
-double errorBound(const Growth& growth, double halfLength, int n) {
-  double least = HUGE_VAL;
+/// An ellipse with the half axes (r + 1/r) / 2 and (r - 1/r) / 2 half lengths.
+struct Ellipse {
+  double logRadius;  ///< log r
+  double logBound;   ///< log of M / (1 - 1/r), where M bounds the function on it
+};
+
+std::vector<Ellipse> ellipsesOf(const Growth& growth, double halfLength) {
+  std::vector<Ellipse> ellipses;
   for (double r = 1.1; r < 1e9; r *= 1.25) {
     const double height = halfLength * (r - 1 / r) / 2;
     if (height >= growth.reach) break;
-    least = std::min(least, 4 * std::exp(growth.exponent(height) - n * std::log(r)) / (1 - 1 / r));
+    ellipses.push_back({std::log(r), growth.exponent(height) - std::log1p(-1 / r)});
   }
-  return least;
+  return ellipses;
+}
+
+/// The logarithm of the bound 4 M r^-n / (1 - 1/r) for n nodes and the best r.
+double logErrorBound(const std::vector<Ellipse>& ellipses, int n) {
+  double least = HUGE_VAL;
+  for (const Ellipse& e : ellipses) least = std::min(least, e.logBound - n * e.logRadius);
+  return std::log(4) + least;
 }
 
 }  // namespace
@@ -28,8 +40,10 @@ Growth trigonometricGrowth(double degree) {
 }
 
 int interpolationNodes(const Growth& growth, double halfLength) {
+  const std::vector<Ellipse> ellipses = ellipsesOf(growth, halfLength);
+  const double enough = std::log(kQuadratureError);
   int n = 1;
-  while (errorBound(growth, halfLength, n) > kQuadratureError) ++n;
+  while (logErrorBound(ellipses, n) > enough) ++n;
   return n;
 }
 

@@ -13,7 +13,16 @@ namespace {
 
 constexpr int kGroup = 4;
 
-/// The integral over [low, high] of the polynomial that is 1 in nodes[which] and 0 in the others.
+/// The product of the distances to all other nodes: what scales the polynomial of a node to 1 there.
+double nodeProduct(const std::vector<double>& nodes, std::size_t which) {
+  double product = 1;
+  for (std::size_t j = 0; j < nodes.size(); ++j) {
+    if (j != which) product *= nodes[which] - nodes[j];
+  }
+  return product;
+}
+
+/// The integral over [low, high] of the polynomial that is nodeProduct() in nodes[which] and 0 in the others.
 double lagrangeIntegral(const std::vector<double>& nodes, std::size_t which, double low, double high,
                         const sh::IntervalRule& rule) {
   double sum = 0;
@@ -21,7 +30,7 @@ double lagrangeIntegral(const std::vector<double>& nodes, std::size_t which, dou
     const double x = low + (high - low) * (1 + rule.nodes[k]) / 2;
     double value = 1;
     for (std::size_t j = 0; j < nodes.size(); ++j) {
-      if (j != which) value *= (x - nodes[j]) / (nodes[which] - nodes[j]);
+      if (j != which) value *= x - nodes[j];
     }
     sum += rule.weights[k] * (high - low) / 2 * value;
   }
@@ -68,11 +77,13 @@ TileTable::TileTable(std::vector<double> nodes, int width) : nodes_(std::move(no
   even_.assign(half * pairs_, 0);
   odd_.assign(half * pairs_, 0);
   const sh::IntervalRule exact = sh::gaussLegendre(static_cast<int>(half));
+  std::vector<double> products;
+  for (std::size_t k = 0; k < n; ++k) products.push_back(nodeProduct(nodes_, k));
   for (int pair = 0; pair < used; ++pair) {
     const double low = -1 + 2.0 * pair / width, high = -1 + 2.0 * (pair + 1) / width;
     for (std::size_t k = 0; k < half; ++k) {
-      const double a = lagrangeIntegral(nodes_, k, low, high, exact);
-      const double b = lagrangeIntegral(nodes_, n - 1 - k, low, high, exact);
+      const double a = lagrangeIntegral(nodes_, k, low, high, exact) / products[k];
+      const double b = lagrangeIntegral(nodes_, n - 1 - k, low, high, exact) / products[n - 1 - k];
       even_[k * pairs_ + pair] = (a + b) / 2;
       odd_[k * pairs_ + pair] = (a - b) / 2;
     }
