@@ -159,17 +159,22 @@ class AutoBaker {
       result_.baked.facts.tolerance = tolerance();
       const SurfaceError& surface = result_.baked.facts.surface;
       result_.met = surface.samples == 0 || surface.rms <= tolerance();
-      if (result_.met || bake == kMostBakes || !canDoBetter()) break;
-      aim *= kAim * tolerance() / surface.rms;
+      if (result_.met || bake == kMostBakes || !openRays_) break;
+      if (refined_ && refined_->end == RefineEnd::met && refined_->rounds > 0) {
+        aim *= kAim * tolerance() / surface.rms;
+        continue;
+      }
+      // More vertices cannot be had; more rays help where there is room for noise.
+      missed_ = missedByJudge();
+      if (*missed_ >= aim) break;
     }
   }
 
-  /// Another bake could meet what this one missed: with more vertices, or with more rays where they are what lacks.
-  bool canDoBetter() const {
-    if (!openRays_) return false;
-    if (refined_ && refined_->end == RefineEnd::met && refined_->rounds > 0) return true;
+  /// What the surface error is beside the noise of the vertices.
+  double missedByJudge() const {
     const TransferFacts& facts = result_.baked.facts;
-    return left().noise * facts.rmsError * facts.rmsError > facts.surface.rms * facts.surface.rms / 2;
+    const double square = facts.surface.rms * facts.surface.rms - left().noise * facts.rmsError * facts.rmsError;
+    return std::sqrt(std::max(0.0, square));
   }
 
   Left left() const { return options_.fit.kind == FitKind::automatic ? kFittedLeft : kPlainLeft; }
@@ -207,11 +212,12 @@ class AutoBaker {
   /// The error that vertices may have, beside what interpolation misses.
   void chooseNoise(double aim) {
     if (!openRays_ || options_.bake.kind == TransferKind::unshadowed) return;
-    const bool judged = refined_ && refined_->rounds > 0;
-    const double missed = left().missed * (judged ? refined_->after : glance());
+    const double missed = missed_ ? *missed_ : left().missed * (isProbed() ? refined_->after : glance());
     const double noise = std::sqrt(std::max(0.0, aim * aim - missed * missed) / left().noise);
     options_.bake.tolerance = std::clamp(noise, kLeastNoise * aim, 1.0);
   }
+
+  bool isProbed() const { return refined_ && refined_->rounds > 0; }
 
   /// What interpolation misses on the mesh that is baked, but for reflections, which change more slowly.
   double glance() {
@@ -332,6 +338,7 @@ class AutoBaker {
   std::optional<ScenePoints> scene_;  // see scene()
   std::optional<AutoRefinement> refined_;
   std::optional<double> glanced_;  // see glance()
+  std::optional<double> missed_;   // what a bake with too few rays left beside their noise
   AutoBake result_;
 };
 
