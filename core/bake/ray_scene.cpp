@@ -17,6 +17,7 @@
 #include "bake/own_faces.h"
 #include "bake/own_planes.h"
 #include "base/error.h"
+#include "base/loop_order.h"
 
 #ifdef __SSE__
 #include <xmmintrin.h>
@@ -48,6 +49,26 @@ Hit onTwin(const std::vector<Triangle>& faces, const Hit& hit, std::uint32_t twi
   if (code == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
   if (code == RTC_ERROR_CANCELLED) throw cancelledError();
   throw Error({.cause = std::string("Embree cannot build the scene: ") + text});
+}
+
+/// Builds what rays are traced in, on the threads of `parallel`; errors come through the device's function for them.
+void build(RTCScene scene, const Parallel& parallel, Progress& progress) {
+  struct Watch {
+    Progress& progress;
+    LoopOrder order{0};
+  } watch{progress};
+  // Embree calls it from a loop of its own.
+  rtcSetSceneProgressMonitorFunction(
+      scene,
+      [](void* user, double) {
+        Watch& w = *static_cast<Watch*>(user);
+        const LoopOrder::Block block(w.order);
+        return w.progress.tryAdvance(0);
+      },
+      &watch);
+  // Joined from our own threads: a device with a number of threads would set a limit for the whole process.
+  parallel.forBlocks(1, 1, [&](std::size_t, std::size_t, int) { rtcJoinCommitScene(scene); });
+  rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
 }
 
 }  // namespace
@@ -135,10 +156,7 @@ RayScene::RayScene(const LightingPoints& points, float maxDistance, const Parall
   rtcAttachGeometry(s.scene, geometry);
   rtcReleaseGeometry(geometry);
   progress.begin("building", 0, "faces");
-  rtcSetSceneProgressMonitorFunction(
-      s.scene, [](void* user, double) { return static_cast<Progress*>(user)->tryAdvance(0); }, &progress);
-  // Joined from our own threads: a device with a number of threads would set a limit for the whole process.
-  parallel.forBlocks(1, 1, [&](std::size_t, std::size_t, int) { rtcJoinCommitScene(s.scene); });
+  build(s.scene, parallel, progress);
   if (s.error != RTC_ERROR_NONE) fail(s.error, s.errorText.c_str());
   progress.end();
   s.contacts = Contacts(points, s.scene, parallel, progress);

@@ -1,21 +1,24 @@
-// What a loop of oneTBB does before what, told to the thread sanitizer.
+// What the loops of oneTBB and Embree do before what, told to the thread sanitizer.
 #pragma once
 
-#ifdef SHBAKE_TELL_THREAD_SANITIZER
+// SHBAKE_TELL_THREAD_SANITIZER: for a file that is not instrumented itself, because it compiles parts of oneTBB.
+#if defined(__SANITIZE_THREAD__) || defined(SHBAKE_TELL_THREAD_SANITIZER)
+#define SHBAKE_TELLS_ORDER
 #include <sanitizer/tsan_interface.h>
 
+#include <cstddef>
 #include <vector>
 #endif
 
 namespace shbake {
 
-/// Debian's oneTBB is not instrumented: the sanitizer does not see what orders its threads, and would call each result
-/// of a loop a race. This tells it that order, and no more than that: a block comes after what the caller did before
-/// the loop and after the blocks that its worker did, and all blocks come before what the caller does next. Blocks of
-/// two workers stay unordered, so that their races are found. Does nothing in other builds.
+/// Debian's oneTBB and Embree are not instrumented: the sanitizer does not see what orders their threads, and would
+/// call each result of a loop a race. This tells it that order, and no more than that: a block comes after what the
+/// caller did before the loop and after the blocks that its worker did, and all blocks come before what the caller does
+/// next. Blocks of two workers stay unordered, so that their races are found. Does nothing in other builds.
 class LoopOrder {
  public:
-#ifdef SHBAKE_TELL_THREAD_SANITIZER
+#ifdef SHBAKE_TELLS_ORDER
   explicit LoopOrder(int workers) : workers_(static_cast<std::size_t>(workers)) {
     __tsan_release(&begin_);
   }
@@ -27,18 +30,23 @@ class LoopOrder {
 
   class Block {
    public:
-    Block(LoopOrder& loop, int worker) : loop_(loop), worker_(&loop.workers_[static_cast<std::size_t>(worker)]) {
-      __tsan_acquire(&loop_.begin_);
-      __tsan_acquire(worker_);
-    }
+    /// A block on worker 0..workers-1.
+    Block(LoopOrder& loop, int worker) : Block(loop, &loop.workers_[static_cast<std::size_t>(worker)]) {}
+    /// A block on nobody knows which worker: it comes after no other.
+    explicit Block(LoopOrder& loop) : Block(loop, nullptr) {}
     ~Block() {
-      __tsan_release(worker_);
+      if (worker_ != nullptr) __tsan_release(worker_);
       __tsan_release(&loop_.end_);
     }
     Block(const Block&) = delete;
     Block& operator=(const Block&) = delete;
 
    private:
+    Block(LoopOrder& loop, char* worker) : loop_(loop), worker_(worker) {
+      __tsan_acquire(&loop_.begin_);
+      if (worker_ != nullptr) __tsan_acquire(worker_);
+    }
+
     LoopOrder& loop_;
     char* worker_;
   };
@@ -51,6 +59,7 @@ class LoopOrder {
 
   struct Block {
     Block(LoopOrder&, int) {}
+    explicit Block(LoopOrder&) {}
   };
 #endif
 };
