@@ -49,6 +49,9 @@ def measure(programs, mesh, options, folder):
 def main():
     if len(sys.argv) < 4:
         sys.exit(__doc__)
+    for file in sys.argv[1:]:
+        if not pathlib.Path(file).is_file():
+            sys.exit(f"compare_builds: there is no file {file}")
     programs, meshes = sys.argv[1:3], sys.argv[3:]
     print(f"{'mesh':20} {'transfer':15} {'CPU of A':>10} {'B / A':>7} {'range':>13} {'memory B / A':>13} "
           f"{'error of A':>11} {'B / A':>7}")

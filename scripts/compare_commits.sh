@@ -29,13 +29,14 @@ for mesh in "${meshes[@]}"; do
   }
 done
 
+letters=(A B)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 for i in 0 1; do
   source=$work/$i
   mkdir "$source"
   git -C "$root" archive "${ids[i]}" | tar -x -C "$source"
-  echo "building ${commits[i]} ($(git -C "$root" log -1 --format='%h %s' "${ids[i]}"))" >&2
+  echo "building ${letters[i]}, ${commits[i]} ($(git -C "$root" log -1 --format='%h %s' "${ids[i]}"))" >&2
   if ! { cmake -S "$source" -B "$source/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSHBAKE_TESTS=OFF &&
     cmake --build "$source/build" --target shbake; } >"$work/log" 2>&1; then
     tail -n 25 "$work/log" >&2
