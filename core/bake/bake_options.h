@@ -26,7 +26,8 @@ struct BakeOptions {
   double maxDistance = std::numeric_limits<double>::infinity();
   /// Chooses the turn of each point's directions: another seed, another sample of the same expectation.
   std::uint64_t seed = 1;
-  /// Bytes that the bake may use for stored hits and solver vectors; 0: half of what is free. Never changes the result.
+  /// Bytes that the bake may use for stored hits and solver vectors (reflection_memory.h); 0: half of what is free.
+  /// Never changes the result.
   std::size_t memory = 0;
 
   static constexpr int kBouncesAuto = -1;

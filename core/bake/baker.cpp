@@ -8,6 +8,7 @@
 #include "bake/fixed_point.h"
 #include "bake/pilot.h"
 #include "bake/ray_scene.h"
+#include "bake/reflection_memory.h"
 #include "bake/reflections.h"
 #include "bake/stated_error.h"
 #include "base/memory.h"
@@ -21,8 +22,9 @@ namespace {
 /// Reflections are summed until what is missing is this small a part of the tolerance on the stated error.
 constexpr double kSolverShare = 0.1;
 constexpr int kMaxSolverSteps = 200;
-/// Columns move in whole vectors of four floats.
-constexpr std::size_t kColumns = 4;
+constexpr std::size_t kColumns = ReflectionMemory::kColumns;
+/// Points that one worker looks from at a time, at least.
+constexpr std::size_t kSkyBlock = 16;
 
 class Baker {
  public:
@@ -96,25 +98,46 @@ class Baker {
   void bakeTraced() {
     const float maxDistance = static_cast<float>(options_.maxDistance * points_.frame.scale);
     std::optional<RayScene> scene(std::in_place, points_, maxDistance, parallel_, progress_);
-    allocate();
     const int rays =
         options_.rays > 0 ? options_.rays : chooseRays(points_, wanted_, *scene, options_, parallel_, progress_);
     const DirectionSet directions(rays, options_.order);
     result_.rays = directions.size();
     pairs_.assign(points_.size(), 0);
     if (reflects()) {
-      const std::size_t memory = options_.memory > 0 ? options_.memory : availableMemory() / 2;
-      Reflections reflections(points_, *scene, directions, options_.seed, options_.twoSided, memory / 2, parallel_);
-      traceWithHits(reflections, directions);
-      // Its memory is more than the solver takes.
-      if (reflections.forgottenPoints() == 0) scene.reset();
-      addReflections(reflections, memory / 2);
-      measureRoughness(reflections);
+      bakeReflected(scene, directions);
     } else {
+      allocate();
       traceSky(*scene, directions);
     }
     scene.reset();
     result_.transfer.error = statedErrors(points_, pairs_, roughness_, result_.rays, options_.order, progress_);
+  }
+
+  /// Traces with hits and adds reflections; frees the scene as soon as it is of no use.
+  void bakeReflected(std::optional<RayScene>& scene, const DirectionSet& directions) {
+    const ReflectionMemory memory(options_.memory, availableMemory(), points_.size(), paddedCount());
+    Reflections reflections(points_, *scene, directions, options_.seed, options_.twoSided, memory.hitsWhileTracing(),
+                            parallel_);
+    // Beside the BVH and the hits, masks take less than the result that they will be turned into, unless rays are many.
+    const auto groups = static_cast<std::size_t>(directions.groups());
+    const bool turnLater = groups * sizeof(std::uint16_t) < result_.transfer.stride() * sizeof(float);
+    std::vector<std::uint16_t> skies(turnLater ? points_.size() * groups : 0);
+    if (!turnLater) allocate();
+    traceWithHits(reflections, directions, skies);
+    const ReflectionMemory::Share share = memory.shareOut(reflections.hitBytes());
+    reflections.forget(share.hits);
+    result_.storedBytes = reflections.storedBytes();
+    result_.retracedPoints = reflections.forgottenPoints();
+    result_.wantedMemory = memory.sufficient(reflections.hitBytes());
+    // Its memory is more than the solver takes.
+    if (reflections.forgottenPoints() == 0) scene.reset();
+    if (turnLater) {
+      allocate();
+      evaluateAll(directions, skies);
+      skies = std::vector<std::uint16_t>();  // {} would keep the memory
+    }
+    addReflections(reflections, share.columns);
+    measureRoughness(reflections);
   }
 
   /// What one worker needs to turn a point's sky masks into its transfer.
@@ -140,47 +163,70 @@ class Baker {
     std::vector<PointTracer> tracers;
     for (int i = 0; i < parallel_.threads(); ++i)
       tracers.emplace_back(points_, scene, directions, options_.seed, false);
+    const auto groups = static_cast<std::size_t>(directions.groups());
+    const std::size_t together = std::max<std::size_t>(1, RayScene::kMaxGroups / groups);
     progress_.begin("tracing", static_cast<double>(points_.size()) * directions.size(), "rays");
-    parallel_.forBlocks(points_.size(), Reflections::kBlock, [&](std::size_t begin, std::size_t end, int worker) {
+    // Small blocks: whoever is done first waits for the last block of the others.
+    parallel_.forBlocks(points_.size(), std::max(together, kSkyBlock),
+                        [&](std::size_t begin, std::size_t end, int worker) {
+                          const FlushDenormals flush;
+                          PointTracer& tracer = tracers[static_cast<std::size_t>(worker)];
+                          std::vector<std::uint32_t> block;
+                          for (std::size_t p = begin; p < end; ++p) {
+                            if (isWanted(p)) block.push_back(static_cast<std::uint32_t>(p));
+                          }
+                          std::vector<std::uint16_t> skies(together * groups);
+                          for (std::size_t first = 0; first < block.size(); first += together) {
+                            const auto some = std::span(block).subspan(first, std::min(together, block.size() - first));
+                            tracer.look(some, std::span(skies).first(some.size() * groups));
+                            for (std::size_t i = 0; i < some.size(); ++i) {
+                              evaluate(evaluators[static_cast<std::size_t>(worker)], some[i],
+                                       std::span(skies).subspan(i * groups, groups), tracer.spin(some[i]));
+                            }
+                          }
+                          progress_.advance(static_cast<double>(end - begin) * directions.size());
+                        });
+    progress_.end();
+  }
+
+  /// Traces all points. Keeps the masks in `skies` where it has room for them, and evaluates them at once where not.
+  void traceWithHits(Reflections& reflections, const DirectionSet& directions, std::vector<std::uint16_t>& skies) {
+    auto evaluators = makeEvaluators(directions);
+    progress_.begin("tracing", static_cast<double>(points_.size()) * directions.size(), "rays");
+    reflections.trace(
+        [&](std::uint32_t p, double spin, std::span<const std::uint16_t> sky, std::span<const Hit>, int worker) {
+          if (skies.empty()) {
+            evaluate(evaluators[static_cast<std::size_t>(worker)], p, sky, spin);
+          } else {
+            std::copy(sky.begin(), sky.end(), skies.begin() + static_cast<std::ptrdiff_t>(p * sky.size()));
+          }
+        },
+        progress_);
+    progress_.end();
+  }
+
+  void evaluateAll(const DirectionSet& directions, std::span<const std::uint16_t> skies) {
+    auto evaluators = makeEvaluators(directions);
+    const auto groups = static_cast<std::size_t>(directions.groups());
+    progress_.begin("evaluating", static_cast<double>(points_.size()), "points");
+    parallel_.forBlocks(points_.size(), 1024, [&](std::size_t begin, std::size_t end, int worker) {
       const FlushDenormals flush;
-      PointTracer& tracer = tracers[static_cast<std::size_t>(worker)];
-      std::vector<std::uint32_t> block;
-      for (std::size_t p = begin; p < end; ++p) {
-        if (isWanted(p)) block.push_back(static_cast<std::uint32_t>(p));
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto p = static_cast<std::uint32_t>(i);
+        evaluate(evaluators[static_cast<std::size_t>(worker)], p, skies.subspan(i * groups, groups),
+                 spinOf(options_.seed, p));
       }
-      const auto groups = static_cast<std::size_t>(directions.groups());
-      const std::size_t together = std::max<std::size_t>(1, RayScene::kMaxGroups / groups);
-      std::vector<std::uint16_t> skies(together * groups);
-      for (std::size_t first = 0; first < block.size(); first += together) {
-        const auto some = std::span(block).subspan(first, std::min(together, block.size() - first));
-        tracer.look(some, std::span(skies).first(some.size() * groups));
-        for (std::size_t i = 0; i < some.size(); ++i) {
-          evaluate(evaluators[static_cast<std::size_t>(worker)], some[i], std::span(skies).subspan(i * groups, groups),
-                   tracer.spin(some[i]));
-        }
-        progress_.advance(static_cast<double>(some.size()) * directions.size());
-      }
-      progress_.advance(static_cast<double>(end - begin - block.size()) * directions.size());
+      progress_.advance(static_cast<double>(end - begin));
     });
     progress_.end();
   }
 
-  void traceWithHits(Reflections& reflections, const DirectionSet& directions) {
-    auto evaluators = makeEvaluators(directions);
-    progress_.begin("tracing", static_cast<double>(points_.size()) * directions.size(), "rays");
-    reflections.trace([&](std::uint32_t p, double spin, std::span<const std::uint16_t> sky, std::span<const Hit>,
-                          int worker) { evaluate(evaluators[static_cast<std::size_t>(worker)], p, sky, spin); },
-                      progress_);
-    progress_.end();
-    result_.storedBytes = reflections.storedBytes();
-    result_.retracedPoints = reflections.forgottenPoints();
-  }
+  /// Columns of a channel, in whole vectors.
+  std::size_t paddedCount() const { return (count() + kColumns - 1) / kColumns * kColumns; }
 
-  /// Solves T = direct + albedo * K T for each channel, as many columns at a time as the memory allows.
-  void addReflections(Reflections& reflections, std::size_t memory) {
-    const std::size_t padded = (count() + kColumns - 1) / kColumns * kColumns;
-    const std::size_t perColumn = points_.size() * sizeof(float) * 2 * kFixedPointWindow;
-    const std::size_t batch = std::clamp(memory / perColumn / kColumns * kColumns, kColumns, padded);
+  /// Solves T = direct + albedo * K T for each channel, `batch` columns at a time.
+  void addReflections(Reflections& reflections, std::size_t batch) {
+    const std::size_t padded = paddedCount();
     progress_.begin("reflecting", 0, "reflections");
     for (int channel = 0; channel < result_.transfer.channels; ++channel) {
       for (std::size_t first = 0; first < count(); first += batch) {

@@ -23,13 +23,14 @@ struct PointBake {
   double maxError = 0;             ///< the largest of them
   std::size_t storedBytes = 0;     ///< hits held in memory
   std::size_t retracedPoints = 0;  ///< points traced again for each reflection because the memory budget was short
+  std::size_t wantedMemory = 0;    ///< the least budget with which none would have been
 };
 
 /// Bakes all points; the stated error figures count those with wanted[p] != 0 only, and points that are not wanted may
 /// be left at zero where nothing depends on them. `wanted` has an entry for each point, or none where all are wanted.
-/// Memory: some 140 bytes a triangle for the BVH and what is found out about the mesh, beside the result and the stored
-/// hits, which options.memory limits; the BVH is freed after tracing unless points have to be traced again
-/// (bench_memory measures it). Throws as bakeMesh().
+/// Memory: some 140 bytes a triangle for the BVH and what is found out about the mesh, beside the result, the stored
+/// hits and the solver's vectors, which options.memory limits together; the BVH is freed after tracing unless points
+/// have to be traced again (bench_memory measures it). Throws as bakeMesh().
 PointBake bakePoints(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, const BakeOptions& options,
                      const Parallel& parallel, Progress& progress);
 

@@ -42,18 +42,7 @@ class Solver {
         settled_(columns, 0),
         held_(columns, 0) {}
 
-  /// Drops the oldest evaluation when the window is full, before memory for a new one is needed.
-  void makeRoom() {
-    if (window_.size() < kWindow) return;
-    window_.erase(window_.begin());
-    for (Products& p : products_) {
-      for (std::size_t i = 0; i + 1 < kWindow; ++i) {
-        for (std::size_t j = 0; j + 1 < kWindow; ++j) p.f[i][j] = p.f[i + 1][j + 1];
-      }
-    }
-  }
-
-  /// Takes up the newest evaluation. Call makeRoom() before.
+  /// Takes up the newest evaluation.
   void add(Iterate iterate) {
     window_.push_back(std::move(iterate));
     held_ = settled_;
@@ -68,27 +57,17 @@ class Solver {
     return settled_[k] != 0;
   }
 
-  /// The next point: the combination of gx with the least combined residual. Reuses the memory of `next`.
-  void combine(std::vector<float>& next) const {
-    std::vector<std::array<double, kWindow>> weights(columns_);
-    for (std::size_t k = 0; k < columns_; ++k) weights[k] = leastResidual(products_[k].f);
-    next.resize(rows_ * columns_);
-    parallel_.forBlocks(rows_, kBlock, [&](std::size_t begin, std::size_t end, int) {
-      for (std::size_t r = begin; r < end; ++r) {
-        for (std::size_t k = 0; k < columns_; ++k) {
-          if (settled_[k]) {
-            next[r * columns_ + k] = newest(r * columns_ + k, k);
-            continue;
-          }
-          double value = 0;
-          for (std::size_t i = 0; i < window_.size(); ++i) {
-            value += weights[k][i] * static_cast<double>(window_[i].gx[r * columns_ + k]);
-          }
-          next[r * columns_ + k] = static_cast<float>(value);
-        }
-      }
-      progress_.advance(0);
-    });
+  /// The next point, the combination of gx with the least combined residual, and room for where g takes it. Both are
+  /// in the memory of the oldest evaluation where the window is full, which drops it.
+  Iterate next() {
+    if (window_.size() < kWindow) {
+      Iterate fresh{std::vector<float>(rows_ * columns_), std::vector<float>(rows_ * columns_)};
+      combine(fresh.x);
+      return fresh;
+    }
+    combine(window_.front().gx);
+    Iterate oldest = dropOldest();
+    return {std::move(oldest.gx), std::move(oldest.x)};
   }
 
   /// The newest values of all columns; the window is of no use afterwards.
@@ -101,6 +80,40 @@ class Solver {
   }
 
  private:
+  /// Writes the next point to `out`, which may be the gx of an evaluation: no value depends on another's place.
+  void combine(std::vector<float>& out) const {
+    std::vector<std::array<double, kWindow>> weights(columns_);
+    for (std::size_t k = 0; k < columns_; ++k) weights[k] = leastResidual(products_[k].f);
+    parallel_.forBlocks(rows_, kBlock, [&](std::size_t begin, std::size_t end, int) {
+      for (std::size_t r = begin; r < end; ++r) {
+        for (std::size_t k = 0; k < columns_; ++k) {
+          const std::size_t e = r * columns_ + k;
+          if (settled_[k]) {
+            out[e] = newest(e, k);
+            continue;
+          }
+          double value = 0;
+          for (std::size_t i = 0; i < window_.size(); ++i) {
+            value += weights[k][i] * static_cast<double>(window_[i].gx[e]);
+          }
+          out[e] = static_cast<float>(value);
+        }
+      }
+      progress_.advance(0);
+    });
+  }
+
+  Iterate dropOldest() {
+    Iterate oldest = std::move(window_.front());
+    window_.erase(window_.begin());
+    for (Products& p : products_) {
+      for (std::size_t i = 0; i + 1 < kWindow; ++i) {
+        for (std::size_t j = 0; j + 1 < kWindow; ++j) p.f[i][j] = p.f[i + 1][j + 1];
+      }
+    }
+    return oldest;
+  }
+
   /// The estimated error of column k's newest evaluation.
   double error(std::size_t k) {
     const std::size_t n = window_.size() - 1;
@@ -185,8 +198,8 @@ FixedPointResult solveFixedPoint(std::size_t rows, std::size_t columns, std::vec
                                  const FixedPointOptions& options, const Parallel& parallel, Progress& progress) {
   Solver solver(rows, columns, parallel, progress);
   FixedPointResult result;
+  Iterate iterate{std::move(x), std::vector<float>(rows * columns)};
   while (true) {
-    Iterate iterate{std::move(x), std::vector<float>(rows * columns)};
     map(iterate.x.data(), iterate.gx.data());
     ++result.steps;
     solver.add(std::move(iterate));
@@ -196,8 +209,7 @@ FixedPointResult solveFixedPoint(std::size_t rows, std::size_t columns, std::vec
       x = solver.takeNewest();
       return result;
     }
-    solver.combine(x);
-    solver.makeRoom();
+    iterate = solver.next();
   }
 }
 

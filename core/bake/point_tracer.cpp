@@ -17,6 +17,10 @@ constexpr std::uint16_t kAll = 0xFFFF;
 
 }  // namespace
 
+double spinOf(std::uint64_t seed, std::uint32_t point) {
+  return 2 * std::numbers::pi * hashUnit(seed, point);
+}
+
 PointTracer::PointTracer(const LightingPoints& points, const RayScene& scene, const DirectionSet& directions,
                          std::uint64_t seed, bool twoSided)
     : points_(points),
@@ -32,10 +36,6 @@ PointTracer::PointTracer(const LightingPoints& points, const RayScene& scene, co
       blocked_(kChunk),
       front_(kChunk),
       chunkHits_(kChunk * kGroup) {}
-
-double PointTracer::spin(std::uint32_t point) const {
-  return 2 * std::numbers::pi * hashUnit(seed_, point);
-}
 
 /// The axes of a point's directions; its fan is ready then.
 PointTracer::Axes PointTracer::takeUp(std::uint32_t point) {

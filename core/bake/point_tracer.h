@@ -12,6 +12,9 @@
 
 namespace shbake {
 
+/// The turn of a point's directions about its normal, radians 0..2 pi.
+double spinOf(std::uint64_t seed, std::uint32_t point);
+
 /// Looks from lighting points; one for each worker thread. The answer for a point depends on the point, the directions
 /// and the seed alone.
 class PointTracer {
@@ -19,8 +22,8 @@ class PointTracer {
   PointTracer(const LightingPoints& points, const RayScene& scene, const DirectionSet& directions, std::uint64_t seed,
               bool twoSided);
 
-  /// The turn of the directions about the point's normal, radians 0..2 pi.
-  double spin(std::uint32_t point) const;
+  /// The turn of the directions about the point's normal: spinOf() the tracer's seed.
+  double spin(std::uint32_t point) const { return spinOf(seed_, point); }
 
   /// Sets the bits of the directions in which the point sees the sky; one mask a group of the set.
   void look(std::uint32_t point, std::span<std::uint16_t> sky);

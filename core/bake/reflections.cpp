@@ -41,6 +41,7 @@ Reflections::Reflections(const LightingPoints& points, const RayScene& scene, co
       parallel_(parallel),
       memoryBudget_(memoryBudget),
       skies_(static_cast<std::size_t>(parallel.threads()), std::vector<std::uint16_t>(directions.groups())),
+      traced_(static_cast<std::size_t>(parallel.threads())),
       blocks_((points.size() + kBlock - 1) / kBlock) {
   for (int i = 0; i < parallel.threads(); ++i) tracers_.emplace_back(points, scene, directions, seed, twoSided);
 }
@@ -63,18 +64,28 @@ void Reflections::traceBlock(std::size_t begin, std::size_t end, int worker, Blo
 
 void Reflections::trace(const Visit& visit, Progress& progress) {
   parallel_.forBlocks(points_.size(), kBlock, [&](std::size_t begin, std::size_t end, int worker) {
-    Block traced;
+    Block& traced = traced_[static_cast<std::size_t>(worker)];
     traceBlock(begin, end, worker, traced, &visit);
-    const std::size_t bytes = traced.hits.size() * sizeof(Hit) + traced.ends.size() * sizeof(std::uint32_t);
+    const std::size_t bytes = traced.bytes();
     if (storedBytes_.fetch_add(bytes) + bytes <= memoryBudget_) {
-      traced.hits.shrink_to_fit();
-      blocks_[begin / kBlock] = std::move(traced);
+      blocks_[begin / kBlock] = traced;
     } else {
       storedBytes_ -= bytes;
+      forgottenBytes_ += bytes;
       forgottenPoints_ += end - begin;
     }
     progress.advance(static_cast<double>(end - begin) * directions_.size());
   });
+  for (Block& traced : traced_) traced = {};
+}
+
+void Reflections::forget(std::size_t memoryBudget) {
+  for (auto block = blocks_.rbegin(); block != blocks_.rend() && storedBytes_ > memoryBudget; ++block) {
+    storedBytes_ -= block->bytes();
+    forgottenBytes_ += block->bytes();
+    forgottenPoints_ += block->ends.size();
+    *block = {};
+  }
 }
 
 void Reflections::gatherPoint(std::span<const Hit> hits, const float* in, float* out, std::size_t columns) const {
@@ -109,9 +120,9 @@ void Reflections::gatherPoint(std::span<const Hit> hits, const float* in, float*
 template <class Body>
 void Reflections::forHits(Progress& progress, const Body& body) {
   parallel_.forBlocks(points_.size(), kBlock, [&](std::size_t begin, std::size_t end, int worker) {
-    Block again;
     const Block* block = &blocks_[begin / kBlock];
     if (block->ends.empty()) {
+      Block& again = traced_[static_cast<std::size_t>(worker)];
       traceBlock(begin, end, worker, again, nullptr);
       block = &again;
     }

@@ -33,6 +33,9 @@ class Reflections {
   /// Traces every point, hands it to `visit` and stores its hits. `progress` advances by rays.
   void trace(const Visit& visit, Progress& progress);
 
+  /// Forgets hits until no more than `memoryBudget` bytes of them are stored.
+  void forget(std::size_t memoryBudget);
+
   /// out[p] = 1/N sum over the hits of p of `in`, interpolated on the face hit: the light that one reflection brings to
   /// p before p's own albedo. Arrays hold `columns` values a point (a multiple of 4).
   void gather(const float* in, float* out, std::size_t columns, Progress& progress);
@@ -44,12 +47,16 @@ class Reflections {
 
   /// Bytes of hits that are stored, and the points that are traced again for each product.
   std::size_t storedBytes() const { return storedBytes_; }
+  /// Bytes of all hits, stored or not.
+  std::size_t hitBytes() const { return storedBytes_ + forgottenBytes_; }
   std::size_t forgottenPoints() const { return forgottenPoints_; }
 
  private:
   struct Block {
     std::vector<Hit> hits;
     std::vector<std::uint32_t> ends;  // end of each point's hits; empty: forgotten
+
+    std::size_t bytes() const { return hits.size() * sizeof(Hit) + ends.size() * sizeof(std::uint32_t); }
   };
 
   void traceBlock(std::size_t begin, std::size_t end, int worker, Block& block, const Visit* visit);
@@ -63,8 +70,9 @@ class Reflections {
   std::size_t memoryBudget_;
   std::vector<PointTracer> tracers_;               // one a worker
   std::vector<std::vector<std::uint16_t>> skies_;  // scratch, one a worker
+  std::vector<Block> traced_;                      // scratch, one a worker: what is kept is copied from it in one piece
   std::vector<Block> blocks_;
-  std::atomic<std::size_t> storedBytes_{0}, forgottenPoints_{0};
+  std::atomic<std::size_t> storedBytes_{0}, forgottenBytes_{0}, forgottenPoints_{0};
 };
 
 }  // namespace shbake

@@ -126,7 +126,8 @@ void warn(BakedMesh& result, const PointBake& baked, const LightingPoints& point
   }
   if (baked.retracedPoints > 0) {
     result.warnings.push_back("the memory budget was short: " + std::to_string(baked.retracedPoints) +
-                              " points were traced again for each reflection; allow more memory to go faster");
+                              " points were traced again for each reflection; with " +
+                              std::to_string((baked.wantedMemory >> 20) + 1) + " MB none would be");
   }
   if (options.rays == 0 && baked.rmsError > options.tolerance) {
     result.warnings.push_back("the stated error is above the tolerance; ask for more rays");
@@ -170,7 +171,7 @@ BakedMesh bakeMesh(Mesh mesh, std::size_t blockers, ScenePoints scene, const Bak
   // The mesh's vertices in their order, then those that are split off; two copies of the faces are not needed.
   const std::vector<std::uint32_t> outputs = ownOutputs(points, vertices);
   splitMesh(mesh, points, outputs);
-  points.outputFaces = {};
+  points.outputFaces = std::vector<Triangle>();  // {} would keep the memory
 
   // Transfer of every lighting point.
   const std::vector<std::uint8_t> wanted = wantedPoints(points, outputs);

@@ -171,7 +171,11 @@ TEST_CASE("memory never changes a result, whatever is stored or solved at once",
     const PointBake rich = bakeAll(points, options);
     CHECK(rich.retracedPoints == 0);
     CHECK(rich.storedBytes > 0);
-    for (const std::size_t memory : {std::size_t(1), rich.storedBytes}) {
+    options.memory = rich.wantedMemory;
+    const PointBake enough = bakeAll(points, options);
+    CHECK(enough.retracedPoints == 0);
+    CHECK(sameBits(enough.transfer.coefficients, rich.transfer.coefficients));
+    for (const std::size_t memory : {std::size_t(1), rich.storedBytes, rich.wantedMemory - 1}) {
       options.memory = memory;
       const PointBake poor = bakeAll(points, options);
       INFO("bounces " << bounces << ", memory " << memory);

@@ -47,6 +47,7 @@ class Traced {
     return out;
   }
 
+  void forget(std::size_t memory) { reflections_.forget(memory); }
   const Reflections& reflections() const { return reflections_; }
   int rays() const { return set_.size(); }
 
@@ -137,8 +138,16 @@ TEST_CASE("a memory budget changes what is stored, not what is gathered", "[refl
     CHECK(some.reflections().forgottenPoints() > 0);
     if (budget == 0) CHECK(some.reflections().forgottenPoints() == points.size());
     if (budget > 0) CHECK(some.reflections().forgottenPoints() < points.size());
+    CHECK(some.reflections().hitBytes() == bytes);
     CHECK(sameBits(some.gather(in, 8), expected));
   }
+  all.forget(bytes / 3);
+  CHECK(all.reflections().storedBytes() <= bytes / 3);
+  CHECK(all.reflections().storedBytes() > 0);
+  CHECK(all.reflections().hitBytes() == bytes);
+  CHECK(all.reflections().forgottenPoints() > 0);
+  CHECK(all.reflections().forgottenPoints() < points.size());
+  CHECK(sameBits(all.gather(in, 8), expected));
 }
 
 TEST_CASE("hits and sums are the same on any number of threads", "[reflections]") {
