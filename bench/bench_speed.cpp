@@ -27,6 +27,7 @@ struct Options {
 /// CPU seconds of a bake's stages, without the BVH. The search for contacts counts as tracing: raw rays go without.
 struct BakeTime {
   double tracing = 0, reflecting = 0, wall = 0;
+  double alone = 0;  // CPU seconds of all stages that run on one thread, the BVH of a small mesh among them
 };
 
 double tracingSeconds(const chart::StageClock& clock) {
@@ -37,10 +38,11 @@ BakeTime timeBake(const LightingPoints& points, const BakeOptions& options, int 
   chart::StageClock clock;
   Progress progress(clock.callback());
   const Parallel parallel(threads);
-  const double wall = chart::wallSeconds();
+  const double wall = chart::wallSeconds(), cpu = chart::cpuSeconds();
   bakePoints(points, {}, options, parallel, progress);
   clock.finish();
-  return {tracingSeconds(clock), clock.seconds("reflecting"), chart::wallSeconds() - wall};
+  const double tracing = tracingSeconds(clock), reflecting = clock.seconds("reflecting");
+  return {tracing, reflecting, chart::wallSeconds() - wall, chart::cpuSeconds() - cpu - tracing - reflecting};
 }
 
 void overRaw(const std::string& label, const LightingPoints& points, int rays, int repetitions) {
@@ -70,14 +72,17 @@ void scaling(const std::string& label, const LightingPoints& points, int repetit
   BakeOptions reflected = shadowed;
   reflected.kind = TransferKind::interreflected;
   reflected.bounces = 3;
-  std::vector<double> threads, bounces;
+  std::vector<double> threads, bound, bounces;
   for (int i = 0; i < repetitions; ++i) {
     const BakeTime one = timeBake(points, shadowed, 1), two = timeBake(points, shadowed, 2),
                    three = timeBake(points, reflected, 1);
     threads.push_back(one.wall / two.wall);
+    // Amdahl's law: what two threads can gain at most.
+    bound.push_back((one.alone + one.tracing) / (one.alone + one.tracing / 2));
     bounces.push_back((three.tracing + three.reflecting) / one.tracing);
   }
-  std::printf("%-24s %14.2f %22.2f\n", label.c_str(), chart::median(threads), chart::median(bounces));
+  std::printf("%-24s %14.2f %10.2f %22.2f\n", label.c_str(), chart::median(threads), chart::median(bound),
+              chart::median(bounces));
   std::fflush(stdout);
 }
 
@@ -158,8 +163,10 @@ void run(const Options& o) {
     const LightingPoints points = namedPoints(name, {0.3f, 0.5f, 0.7f});
     for (const int rays : {64, 256, 1024}) overRaw(labelOf(name), points, rays, o.repetitions);
   }
-  std::printf("\nOrder 4, 1 channel, 256 rays: wall time of one thread over two; CPU time of 3 bounces over none\n");
-  std::printf("%-24s %14s %22s\n", "mesh", "1 / 2 threads", "3 bounces / shadowed");
+  std::printf(
+      "\nOrder 4, 1 channel, 256 rays: wall time of one thread over two, and what it can be by the CPU time of the "
+      "stages that run on one; CPU time of 3 bounces over none\n");
+  std::printf("%-24s %14s %10s %22s\n", "mesh", "1 / 2 threads", "at most", "3 bounces / shadowed");
   for (const std::string& name : o.meshes) scaling(labelOf(name), namedPoints(name, {0.8f, 0.8f, 0.8f}), o.repetitions);
   if (o.skipGreen) return;
   std::printf(
