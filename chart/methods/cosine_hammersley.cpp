@@ -1,6 +1,7 @@
 // Cosine-distributed Hammersley points, turned at each point.
 #include <array>
 
+#include "chart/methods/cosine_direction.h"
 #include "chart/methods/owen.h"
 #include "chart/methods/table_method.h"
 
@@ -12,7 +13,7 @@ Estimate estimateCosineHammersley(const TestBed& bed, const Task& task, Progress
       return std::array{(i + 0.5) / rays, (sobolBits(static_cast<std::uint32_t>(i), 0) + 0.5) * 0x1p-32};
     });
   };
-  return estimateByExactTable(bed, task, progress, set, Tables::one);
+  return estimateExactly(bed, task, progress, makeSets(task, set, Sets::one));
 }
 
 }  // namespace shbake::chart

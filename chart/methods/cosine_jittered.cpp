@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/hash.h"
+#include "chart/methods/cosine_direction.h"
 #include "chart/methods/table_method.h"
 
 namespace shbake::chart {
@@ -19,7 +20,7 @@ Estimate estimateCosineJittered(const TestBed& bed, const Task& task, Progress& 
                         (i / rows + hashUnit(seed, 2 * index + 1)) / columns};
     });
   };
-  return estimateByExactTable(bed, task, progress, set, Tables::several);
+  return estimateExactly(bed, task, progress, makeSets(task, set, Sets::several));
 }
 
 }  // namespace shbake::chart

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "base/hash.h"
+#include "chart/methods/cosine_direction.h"
 #include "chart/methods/table_method.h"
 
 namespace shbake::chart {
@@ -13,7 +14,7 @@ Estimate estimateCosineRandom(const TestBed& bed, const Task& task, Progress& pr
       return std::array{hashUnit(seed, 2 * index), hashUnit(seed, 2 * index + 1)};
     });
   };
-  return estimateByExactTable(bed, task, progress, set, Tables::several);
+  return estimateExactly(bed, task, progress, makeSets(task, set, Sets::several));
 }
 
 }  // namespace shbake::chart

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "base/hash.h"
+#include "chart/methods/cosine_direction.h"
 #include "chart/methods/owen.h"
 #include "chart/methods/table_method.h"
 
@@ -15,7 +16,7 @@ Estimate estimateCosineSobol(const TestBed& bed, const Task& task, Progress& pro
     };
     return cosineDirections(rays, [&](int i) { return std::array{coordinate(i, 0), coordinate(i, 1)}; });
   };
-  return estimateByExactTable(bed, task, progress, set, Tables::several);
+  return estimateExactly(bed, task, progress, makeSets(task, set, Sets::several));
 }
 
 }  // namespace shbake::chart

@@ -1,4 +1,4 @@
-// Our directions as a table like those of the other methods: without the control variate, and with other exclusions.
+// Our directions as a set like those of the other methods: without the control variate, and with other exclusions.
 #include "bake/direction_set.h"
 #include "chart/methods/table_method.h"
 
@@ -17,31 +17,31 @@ std::vector<WeightedDirection> fibonacci(int rays, std::uint64_t) {
   return all;
 }
 
-Estimate estimatePlainly(const TestBed& bed, const Task& task, Progress& progress, const EmbreeScene& scene,
-                         const PlainStart& start) {
+Estimate estimateFrom(const TestBed& bed, const Task& task, Progress& progress, const EmbreeScene& scene,
+                      const PlainStart& start) {
   PlainView view(bed.points(), scene, start);
-  return estimateByTable(bed, task, progress, fibonacci, Tables::one, view);
+  return estimatePlainly(bed, task, progress, makeSets(task, fibonacci, Sets::one), view);
 }
 
 }  // namespace
 
 Estimate estimatePlainFibonacci(const TestBed& bed, const Task& task, Progress& progress) {
-  return estimateByExactTable(bed, task, progress, fibonacci, Tables::one);
+  return estimateExactly(bed, task, progress, makeSets(task, fibonacci, Sets::one));
 }
 
 Estimate estimateNearEpsilon(const TestBed& bed, const Task& task, Progress& progress) {
   const EmbreeScene& scene = bed.bare();
-  return estimatePlainly(bed, task, progress, scene, {.near = kEpsilon * scene.diagonal()});
+  return estimateFrom(bed, task, progress, scene, {.near = kEpsilon * scene.diagonal()});
 }
 
 Estimate estimateNormalOffset(const TestBed& bed, const Task& task, Progress& progress) {
   const EmbreeScene& scene = bed.bare();
-  return estimatePlainly(bed, task, progress, scene, {.offset = kEpsilon * scene.diagonal()});
+  return estimateFrom(bed, task, progress, scene, {.offset = kEpsilon * scene.diagonal()});
 }
 
 Estimate estimateNeighboursOut(const TestBed& bed, const Task& task, Progress& progress) {
   const EmbreeScene& scene = bed.neighboursOut();
-  return estimatePlainly(bed, task, progress, scene, {.near = scene.nearDistance()});
+  return estimateFrom(bed, task, progress, scene, {.near = scene.nearDistance()});
 }
 
 }  // namespace shbake::chart

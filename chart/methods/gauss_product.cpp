@@ -25,7 +25,7 @@ Estimate estimateGaussProduct(const TestBed& bed, const Task& task, Progress& pr
     }
     return all;
   };
-  return estimateByExactTable(bed, task, progress, set, Tables::one);
+  return estimateExactly(bed, task, progress, makeSets(task, set, Sets::one));
 }
 
 }  // namespace shbake::chart

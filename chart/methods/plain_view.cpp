@@ -1,15 +1,17 @@
 // What a point sees by rays that avoid their start by a distance.
+#include "chart/methods/plain_view.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <limits>
 
-#include "chart/methods/point_view.h"
+#include "bake/ray_scene.h"
 
 namespace shbake::chart {
 namespace {
 
-constexpr std::size_t kGroup = DirectionTable::kGroup;
+constexpr std::size_t kGroup = DirectionSet::kGroup;
 constexpr float kFar = std::numeric_limits<float>::infinity();
 /// Rays handed to Embree in one call: as many as shbake's.
 constexpr std::size_t kStream = RayScene::kMaxGroups * kGroup;
@@ -18,8 +20,8 @@ struct Axes {
   Vec3f x, y, z;
 
   explicit Axes(const sh::LocalFrame& frame) : x(frame.x), y(frame.y), z(frame.z) {}
-  Vec3f turned(const DirectionTable& table, std::size_t i) const {
-    return x * table.x()[i] + y * table.y()[i] + z * table.z()[i];
+  Vec3f turned(const DirectionSet& set, std::size_t i) const {
+    return x * set.x()[i] + y * set.y()[i] + z * set.z()[i];
   }
 };
 
@@ -28,15 +30,15 @@ struct Axes {
 PlainView::PlainView(const LightingPoints& points, const EmbreeScene& scene, const PlainStart& start)
     : points_(points), scene_(scene), start_(start), stream_(scene.nativePackets() ? 0 : kStream) {}
 
-void PlainView::look(std::uint32_t point, const DirectionTable& table, const sh::LocalFrame& frame,
+void PlainView::look(std::uint32_t point, const DirectionSet& set, const sh::LocalFrame& frame,
                      std::span<std::uint16_t> sky) {
   const std::uint32_t position = points_.pointPosition[point];
   const Vec3f origin = points_.positions[position] + points_.pointNormal[point] * start_.offset;
   const RTCRay first = rayFrom(origin, start_.near, {}, position);
-  scene_.nativePackets() ? lookByPackets(first, table, frame, sky) : lookByStream(first, table, frame, sky);
+  scene_.nativePackets() ? lookByPackets(first, set, frame, sky) : lookByStream(first, set, frame, sky);
 }
 
-void PlainView::lookByPackets(const RTCRay& first, const DirectionTable& table, const sh::LocalFrame& frame,
+void PlainView::lookByPackets(const RTCRay& first, const DirectionSet& set, const sh::LocalFrame& frame,
                               std::span<std::uint16_t> sky) {
   const Axes axes(frame);
   RTCIntersectContext context;
@@ -47,32 +49,31 @@ void PlainView::lookByPackets(const RTCRay& first, const DirectionTable& table, 
     r.tnear[k] = first.tnear, r.time[k] = 0, r.mask[k] = first.mask, r.id[k] = first.id, r.flags[k] = 0;
   }
   for (std::size_t g = 0; g < sky.size(); ++g) {
-    const unsigned active = table.activeMask(static_cast<int>(g));
     alignas(64) std::array<int, kGroup> valid;
     for (std::size_t k = 0; k < kGroup; ++k) {
-      const Vec3f d = axes.turned(table, g * kGroup + k);
+      const Vec3f d = axes.turned(set, g * kGroup + k);
       r.dir_x[k] = d.x, r.dir_y[k] = d.y, r.dir_z[k] = d.z;
-      valid[k] = (active >> k & 1) != 0 ? -1 : 0;
+      valid[k] = -1;
       r.tfar[k] = kFar;
     }
     rtcOccluded16(valid.data(), scene_.scene(), &context, &r);
     unsigned blocked = 0;
     for (unsigned k = 0; k < kGroup; ++k) blocked |= static_cast<unsigned>(r.tfar[k] < 0) << k;
-    sky[g] = static_cast<std::uint16_t>(active & ~blocked);
+    sky[g] = static_cast<std::uint16_t>(~blocked);
   }
 }
 
-void PlainView::lookByStream(const RTCRay& first, const DirectionTable& table, const sh::LocalFrame& frame,
+void PlainView::lookByStream(const RTCRay& first, const DirectionSet& set, const sh::LocalFrame& frame,
                              std::span<std::uint16_t> sky) {
   const Axes axes(frame);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  const auto n = static_cast<std::size_t>(table.size());
+  const auto n = static_cast<std::size_t>(set.size());
   std::fill(sky.begin(), sky.end(), std::uint16_t(0));
   for (std::size_t begin = 0; begin < n; begin += kStream) {
     const std::size_t count = std::min(kStream, n - begin);
     for (std::size_t i = 0; i < count; ++i) {
-      const Vec3f d = axes.turned(table, begin + i);
+      const Vec3f d = axes.turned(set, begin + i);
       stream_[i] = first;
       stream_[i].dir_x = d.x, stream_[i].dir_y = d.y, stream_[i].dir_z = d.z;
     }

@@ -1,9 +1,10 @@
-// Estimates from tables of local directions.
+// Estimates from sets of local directions.
 #include "chart/methods/table_method.h"
 
-#include <cmath>
 #include <numbers>
 
+#include "bake/direct_transfer.h"
+#include "bake/point_tracer.h"
 #include "base/hash.h"
 #include "chart/methods/cpu_clock.h"
 #include "sh/basis.h"
@@ -12,8 +13,31 @@
 namespace shbake::chart {
 namespace {
 
-constexpr std::size_t kStretch = 64, kTables = 16;
+constexpr std::size_t kStretch = 64, kSets = 16;
 constexpr std::size_t kCancelStep = 16;  // points between two looks at the progress
+
+/// look(point, set, spin, sky) fills the masks of a point in the directions of a set.
+template <class Look>
+Estimate estimateBy(const TestBed& bed, const Task& task, Progress& progress, const std::vector<DirectionSet>& sets,
+                    const Look& look) {
+  const LightingPoints& points = bed.points();
+  std::vector<DirectTransfer> direct;
+  for (const DirectionSet& set : sets) direct.emplace_back(set);
+  const auto count = static_cast<std::size_t>(sh::coefficientCount(task.order));
+  std::vector<std::uint16_t> sky(static_cast<std::size_t>(sets[0].groups()));
+  Estimate result;
+  result.transfer.resize(task.chosen.size() * count);
+  const double cpu = timedOverPoints(task.chosen, progress, [&](std::uint32_t p, std::size_t i) {
+    const std::size_t set = p / kStretch % sets.size();
+    // The turn of PointTracer::spin().
+    const double spin = 2 * std::numbers::pi * hashUnit(task.seed, p);
+    look(p, set, spin, std::span(sky));
+    direct[set].evaluate(sky, Vec3d(points.pointNormal[p]), spin, {&result.transfer[i * count], count});
+  });
+  result.cpu = cpu * static_cast<double>(points.size()) / static_cast<double>(task.chosen.size());
+  result.rays = sets[0].size();
+  return result;
+}
 
 }  // namespace
 
@@ -29,39 +53,29 @@ double timedOverPoints(std::span<const std::uint32_t> chosen, Progress& progress
   return threadCpuSeconds() - start;
 }
 
-Estimate estimateByTable(const TestBed& bed, const Task& task, Progress& progress, const MakeSet& makeSet,
-                         Tables tables, PointView& view) {
-  const LightingPoints& points = bed.points();
-  std::vector<DirectionTable> bank;
-  for (std::size_t t = 0; t < (tables == Tables::one ? 1 : kTables); ++t) {
-    bank.emplace_back(makeSet(task.rays, hashBits(task.seed, t)), task.order);
+std::vector<DirectionSet> makeSets(const Task& task, const MakeSet& makeSet, Sets sets) {
+  std::vector<DirectionSet> all;
+  for (std::size_t i = 0; i < (sets == Sets::one ? 1 : kSets); ++i) {
+    all.emplace_back(makeSet(task.rays, hashBits(task.seed, i)), task.order);
   }
-  const auto count = static_cast<std::size_t>(sh::coefficientCount(task.order));
-  const sh::FrameRotation rotation(task.order);
-  std::vector<std::uint16_t> sky(static_cast<std::size_t>(bank[0].groups()));
-  std::vector<double> local(count), world(count);
-  Estimate result;
-  result.transfer.resize(task.chosen.size() * count);
-  const double cpu = timedOverPoints(task.chosen, progress, [&](std::uint32_t p, std::size_t i) {
-    const DirectionTable& table = bank[p / kStretch % bank.size()];
-    const double spin = 2 * std::numbers::pi * hashUnit(task.seed, p);
-    const Vec3d normal(points.pointNormal[p]);
-    view.look(p, table, sh::localFrame(normal, spin), sky);
-    table.sum(sky, local);
-    rotation.toWorld(normal, spin, local, world);
-    for (std::size_t k = 0; k < count; ++k) result.transfer[i * count + k] = static_cast<float>(world[k]);
-  });
-  result.cpu = cpu * static_cast<double>(points.size()) / static_cast<double>(task.chosen.size());
-  result.rays = bank[0].size();
+  return all;
+}
+
+Estimate estimateExactly(const TestBed& bed, const Task& task, Progress& progress,
+                         const std::vector<DirectionSet>& sets) {
+  std::vector<PointTracer> tracers;
+  for (const DirectionSet& set : sets) tracers.emplace_back(bed.points(), bed.exact(), set, task.seed, false);
+  Estimate result = estimateBy(bed, task, progress, sets,
+                               [&](std::uint32_t p, std::size_t set, double, auto sky) { tracers[set].look(p, sky); });
+  result.cpu += bed.contactSeconds();
   return result;
 }
 
-Estimate estimateByExactTable(const TestBed& bed, const Task& task, Progress& progress, const MakeSet& makeSet,
-                              Tables tables) {
-  ExactView view(bed);
-  Estimate result = estimateByTable(bed, task, progress, makeSet, tables, view);
-  result.cpu += bed.contactSeconds();
-  return result;
+Estimate estimatePlainly(const TestBed& bed, const Task& task, Progress& progress,
+                         const std::vector<DirectionSet>& sets, PlainView& view) {
+  return estimateBy(bed, task, progress, sets, [&](std::uint32_t p, std::size_t set, double spin, auto sky) {
+    view.look(p, sets[set], sh::localFrame(Vec3d(bed.points().pointNormal[p]), spin), sky);
+  });
 }
 
 }  // namespace shbake::chart
