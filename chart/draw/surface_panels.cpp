@@ -26,9 +26,11 @@ constexpr Kind kKinds[] = {
     {SurfaceRefinement::none, FitKind::surface, "--fit surface, by rays", "--fit surface", Series::Style::line, 2},
     {SurfaceRefinement::automatic, FitKind::vertex, "finer where the light changes", "--refine auto",
      Series::Style::line, 3},
-    {SurfaceRefinement::automatic, FitKind::automatic, "the same, --fit auto", "--refine auto", Series::Style::dashed, 3},
+    {SurfaceRefinement::automatic, FitKind::automatic, "the same, --fit auto", "--refine auto", Series::Style::dashed,
+     3},
     {SurfaceRefinement::even, FitKind::vertex, "even edges", "--refine LENGTH", Series::Style::line, 4},
-    {SurfaceRefinement::even, FitKind::automatic, "even edges, --fit auto", "--refine LENGTH", Series::Style::dashed, 4},
+    {SurfaceRefinement::even, FitKind::automatic, "even edges, --fit auto", "--refine LENGTH", Series::Style::dashed,
+     4},
     {SurfaceRefinement::chosen, FitKind::automatic, "all chosen, by tolerance", "--tolerance", Series::Style::strong,
      5},
 };

@@ -137,8 +137,8 @@ class SurfaceStudier {
     bool rays = true, even = isFlat, automatic = isFlat, tolerance = true;
     for (std::size_t i = 0; i < kTargets.size(); ++i) {
       rays = rays && i < kRays.size() && attempt([&] { return bakeAsItIs(kRays[i]); });
-      automatic = automatic && attempt([&] { return divideWhereLightChanges(kTargets[i]); });
       even = even && attempt([&] { return divideEvenly(flat.flatArea, vertices); });
+      automatic = automatic && attempt([&] { return divideWhereLightChanges(kTargets[i]); });
       tolerance = tolerance && attempt([&] { return bakeToTolerance(kTargets[i]); });
       vertices *= kGrowth;
     }
