@@ -19,6 +19,30 @@ Triangle fromFirstCorner(const Triangle& t) {
   return {t[k], t[(k + 1) % 3], t[(k + 2) % 3]};
 }
 
+/// The faces that have a weight, in the order of their points from the lowest on, whatever their own order. Points are
+/// numbered along a curve, so that their lists are nearly sorted: one list for each lowest point, then within them.
+std::vector<std::uint32_t> facesAlongCurve(const LightingPoints& points, std::span<const double> weights,
+                                           Passes& passes) {
+  const auto lowest = [&](std::uint32_t f) { return *std::ranges::min_element(points.facePoints[f]); };
+  std::vector<std::uint32_t> ends(points.size() + 1, 0), order;
+  passes.forEach<std::uint32_t>(weights.size(), [&](std::uint32_t f) {
+    if (weights[f] > 0) ++ends[lowest(f) + 1];
+  });
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  order.resize(ends.back());
+  passes.forEach<std::uint32_t>(weights.size(), [&](std::uint32_t f) {
+    if (weights[f] > 0) order[ends[lowest(f)]++] = f;
+  });
+  passes.forEach(points.size(), [&](std::size_t p) {
+    const auto begin = order.begin() + (p == 0 ? 0 : ends[p - 1]);
+    std::sort(begin, order.begin() + ends[p], [&](std::uint32_t a, std::uint32_t b) {
+      const Triangle ta = fromFirstCorner(points.facePoints[a]), tb = fromFirstCorner(points.facePoints[b]);
+      return ta != tb ? ta < tb : a < b;
+    });
+  });
+  return order;
+}
+
 /// The place's value of something that each corner has.
 template <class T, class OfCorner>
 Vec3<T> blend(const SurfacePlace& place, const OfCorner& ofCorner) {
@@ -47,18 +71,13 @@ std::vector<double> areaWeights(const LightingPoints& points, std::size_t faces)
 
 std::vector<SurfacePlace> drawPlaces(const LightingPoints& points, std::span<const double> weights, std::size_t count,
                                      std::uint64_t seed, Progress& progress) {
-  const std::size_t faces = weights.size();
-  Passes passes(progress, "placing samples", faces, "faces", 2);
-  std::vector<std::uint32_t> order(faces);
-  std::iota(order.begin(), order.end(), 0u);
-  passes.sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const Triangle ta = fromFirstCorner(points.facePoints[a]), tb = fromFirstCorner(points.facePoints[b]);
-    return ta != tb ? ta < tb : a < b;
-  });
+  // Lists 3, weights 1.
+  Passes passes(progress, "placing samples", weights.size(), "faces", 4);
+  const std::vector<std::uint32_t> order = facesAlongCurve(points, weights, passes);
   std::vector<double> ends;  // the weight up to the end of each face in order
-  ends.reserve(faces);
+  ends.reserve(order.size());
   double total = 0;
-  passes.forEach(faces, [&](std::size_t i) { ends.push_back(total += weights[order[i]]); });
+  passes.forEach(order.size(), [&](std::size_t i) { ends.push_back(total += weights[order[i]]); });
   passes.end();
   std::vector<SurfacePlace> places;
   if (total == 0) return places;
