@@ -7,11 +7,13 @@ Usage: mutants.py --check             each mistake still fits the code exactly o
                                       at the end); given again, a build is not begun anew
 
 The mistakes are listed in mutants.toml beside this file. They are made in a copy of the project, never in the project
-itself. Exits with 1 when a mistake survives its tests, does not fit, does not compile, or its tests fail without it."""
+itself. Exits with 1 when a mistake survives its tests, does not fit, does not compile, or its tests fail without it.
+Behind each verdict stands the CPU time that it took, of all cores together."""
 import argparse
 import os
 import pathlib
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -122,17 +124,13 @@ class Workshop:
         return result.returncode == 0
 
     def verdict(self, mutant):
-        layers = sorted({test.partition(": ")[0] for test in mutant["tests"]})
+        """What is wrong with a mutant, or None where each of its tests fails. What it changed is changed back, but not
+        built again: the next build does that along with its own."""
         path = self.tree / mutant["file"]
         right = path.read_text()
-        failure = self.make(layers)
-        if failure:
-            return "does not compile even without it:\n" + failure
-        if not all(self.passes(test) for test in mutant["tests"]):
-            return "its tests fail without it"
         try:
             path.write_text(right.replace(mutant["find"], mutant["replace"]))
-            failure = self.make(layers)
+            failure = self.make(layers_of([mutant]))
             if failure:
                 return "does not compile:\n" + failure
             survived = [test for test in mutant["tests"] if self.passes(test)]
@@ -141,17 +139,37 @@ class Workshop:
             path.write_text(right)
 
 
+def layers_of(mutants):
+    return sorted({test.partition(": ")[0] for mutant in mutants for test in mutant["tests"]})
+
+
+def cpu_seconds():
+    """What all programs that have ended took so far, on all cores together."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
 def run(mutants, folder):
     workshop = Workshop(folder)
     workshop.prepare()
-    bad = 0
+    faults = {mutant["name"]: faults_of(mutant) for mutant in mutants}
+    fitting = [mutant for mutant in mutants if not faults[mutant["name"]]]
+    failure = workshop.make(layers_of(fitting)) if fitting else None
+    if failure:
+        print("mutants: the tests cannot be built, even without a mistake:\n" + failure)
+        return 1
+    failing = {test for mutant in fitting for test in mutant["tests"] if not workshop.passes(test)}
     width = max(len(m["name"]) for m in mutants)
+    state = "tests fail" if failing else "tests pass"
+    print(f"{'without a mistake':{width}}  {state}, {cpu_seconds():.0f} s", flush=True)
+    bad = 0
     for mutant in mutants:
-        faults = faults_of(mutant)
-        problem = "; ".join(faults) if faults else workshop.verdict(mutant)
+        before = cpu_seconds()
+        faults[mutant["name"]] += [f"'{test}' fails without it" for test in mutant["tests"] if test in failing]
+        problem = "; ".join(faults[mutant["name"]]) or workshop.verdict(mutant)
         bad += problem is not None
-        print(f"{mutant['name']:{width}}  {problem or 'killed'}", flush=True)
-    print(f"mutants: {len(mutants) - bad} of {len(mutants)} killed")
+        print(f"{mutant['name']:{width}}  {problem or 'killed'}, {cpu_seconds() - before:.0f} s", flush=True)
+    print(f"mutants: {len(mutants) - bad} of {len(mutants)} killed, {cpu_seconds() / 60:.1f} min of CPU time")
     return 1 if bad else 0
 
 
