@@ -84,16 +84,15 @@ TEST_CASE("split vertices are appended and carry what their source carries", "[b
   std::vector<std::int32_t> numbers(8);
   for (std::int32_t v = 0; v < 8; ++v) numbers[std::size_t(v)] = 100 + v;
   mesh.vertexProperties.push_back(column("number", ScalarType::int32, numbers));
-  Property list = column("list", ScalarType::uint16, std::vector<std::uint16_t>{});
-  list.isList = true;
   std::vector<std::uint16_t> items;
-  list.listStarts = {0};
+  std::vector<std::uint64_t> starts{0};
   for (std::uint16_t v = 0; v < 8; ++v) {
     items.insert(items.end(), v % 3, std::uint16_t(v * 10));
-    list.listStarts.push_back(items.size());
+    starts.push_back(items.size());
   }
-  list.values.resize(items.size() * 2);
-  std::memcpy(list.values.data(), items.data(), list.values.size());
+  Property list = column("list", ScalarType::uint16, items);
+  list.isList = true;
+  list.listStarts = starts;
   mesh.vertexProperties.push_back(list);
   mesh.vertexColors.resize(8);
   for (std::size_t v = 0; v < 8; ++v) mesh.vertexColors[v] = {float(v) / 10, 0.5f, 0.5f};
