@@ -24,7 +24,8 @@ struct Options {
   bool skipGreen = false;
 };
 
-/// CPU seconds of a bake's stages, without the BVH. The search for contacts counts as tracing: raw rays go without.
+/// CPU seconds of a bake's stages, without the BVH. The search for contacts counts as tracing: raw rays go without;
+/// turning masks into transfer, where that waits for the end of tracing, as reflecting.
 struct BakeTime {
   double tracing = 0, reflecting = 0, wall = 0;
   double alone = 0;  // CPU seconds of all stages that run on one thread, the BVH of a small mesh among them
@@ -41,7 +42,8 @@ BakeTime timeBake(const LightingPoints& points, const BakeOptions& options, int 
   const double wall = chart::wallSeconds(), cpu = chart::cpuSeconds();
   bakePoints(points, {}, options, parallel, progress);
   clock.finish();
-  const double tracing = tracingSeconds(clock), reflecting = clock.seconds("reflecting");
+  const double tracing = tracingSeconds(clock);
+  const double reflecting = clock.seconds("evaluating") + clock.seconds("reflecting");
   return {tracing, reflecting, chart::wallSeconds() - wall, chart::cpuSeconds() - cpu - tracing - reflecting};
 }
 
