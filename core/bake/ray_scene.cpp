@@ -136,7 +136,8 @@ RayScene::RayScene(const LightingPoints& points, float maxDistance, const Parall
       [](void* user, RTCError code, const char* text) {
         auto* state = static_cast<State*>(user);
         state->error = code;
-        state->errorText = text == nullptr ? "" : text;
+        // Who stopped the work needs no words about it.
+        if (code != RTC_ERROR_CANCELLED) state->errorText = text == nullptr ? "" : text;
       },
       &s);
   s.packets = rtcGetDeviceProperty(s.device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
