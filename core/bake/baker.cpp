@@ -51,8 +51,7 @@ class Baker {
   bool hasColor() const {
     const bool all = reflects();
     for (std::size_t p = 0; p < points_.size(); ++p) {
-      const Rgb& a = points_.pointAlbedo[p];
-      if ((a.x != a.y || a.y != a.z) && (all || isWanted(p))) return true;
+      if (isColored(points_.pointAlbedo[p]) && (all || isWanted(p))) return true;
     }
     return false;
   }

@@ -29,7 +29,6 @@ TransferSet traceOnce(const LightingPoints& points, const std::vector<std::uint8
   TransferSet set;
   set.order = options.order;
   const auto count = static_cast<std::size_t>(set.coefficientsPerChannel());
-  const auto isColored = [&](const Rgb& a) { return a.x != a.y || a.y != a.z; };
   for (std::size_t p = 0; p < corners.size(); ++p) {
     if (corners[p] != 0 && isColored(points.pointAlbedo[p])) set.channels = 3;
   }

@@ -162,8 +162,7 @@ SurfaceError measureSurfaceError(LightingPoints points, const TransferSet& baked
   if (bake.kind != TransferKind::unshadowed && bake.rays == 0) {
     throw usageError("the surface error needs the number of rays that the bake took", "set BakeOptions::rays");
   }
-  const bool hasColor = std::any_of(points.pointAlbedo.begin(), points.pointAlbedo.end(),
-                                    [](const Rgb& a) { return a.x != a.y || a.y != a.z; });
+  const bool hasColor = std::any_of(points.pointAlbedo.begin(), points.pointAlbedo.end(), isColored);
   if (baked.size() != points.size() || baked.order != bake.order || baked.channels != (hasColor ? 3 : 1)) {
     throw usageError("the transfer does not belong to these points and options", "give what bakePoints() returned");
   }

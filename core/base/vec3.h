@@ -31,6 +31,10 @@ using Vec3d = Vec3<double>;
 /// Linear red, green, blue.
 using Rgb = Vec3<float>;
 
+inline bool isColored(const Rgb& c) {
+  return c.x != c.y || c.y != c.z;
+}
+
 template <class T>
 constexpr T dot(Vec3<T> a, Vec3<T> b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;

@@ -1,7 +1,6 @@
 // Pairs of boxes that meet.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <span>

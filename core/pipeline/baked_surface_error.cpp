@@ -80,8 +80,7 @@ SurfaceError measureSurfaceError(const BakedPly& baked, std::size_t samples, con
   albedo.per = Albedo::Per::vertex;
   albedo.values = albedoOf(baked);
   LightingPoints points = makeLightingPoints(baked.mesh, {}, albedo, progress);
-  const bool hasColor = std::any_of(points.pointAlbedo.begin(), points.pointAlbedo.end(),
-                                    [](const Rgb& a) { return a.x != a.y || a.y != a.z; });
+  const bool hasColor = std::any_of(points.pointAlbedo.begin(), points.pointAlbedo.end(), isColored);
   if (baked.transfer.channels != (hasColor ? 3 : 1)) {
     fail(baked, hasColor ? "has one channel, but colours as albedo" : "has three channels, but grey albedo",
          "bake the mesh with shbake bake --surface-error");

@@ -72,6 +72,16 @@ double doubledArea(const Mesh& mesh) {
 
 }  // namespace
 
+RefinedMesh refinedBy(const Mesh& mesh, const EdgeLength& length, int threads) {
+  Progress progress;
+  return refineFlatRegions(mesh, {}, length, Parallel(threads), progress);
+}
+
+Mesh inFloats(Mesh mesh) {
+  for (Vec3d& p : mesh.positions) p = roundedToFloat(p);
+  return mesh;
+}
+
 RefinedMesh refinedTo(const Mesh& mesh, double length, const RefineOptions& options) {
   Progress progress;
   const Parallel parallel(2);

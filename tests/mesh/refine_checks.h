@@ -11,6 +11,11 @@ namespace shbake {
 
 /// The mesh refined to one length on two threads.
 RefinedMesh refinedTo(const Mesh& mesh, double length, const RefineOptions& options = {});
+/// The same to a length that varies.
+RefinedMesh refinedBy(const Mesh& mesh, const EdgeLength& length, int threads = 2);
+
+/// The mesh as a file of floats holds it.
+Mesh inFloats(Mesh mesh);
 
 double areaOf(const Mesh& mesh);
 /// Six times the volume that faces enclose with the origin, divided by six: that of a closed mesh.

@@ -92,7 +92,7 @@ TEST_CASE("a cone's line turns at each of its faces, and lines of two bodies sta
 
 TEST_CASE("lines are found on tilted ground, to the rounding of floats", "[refine]") {
   Mesh mesh = shapes::tiltedBoxesOnGround();
-  for (Vec3d& p : mesh.positions) p = Vec3d(Vec3f(p));
+  for (Vec3d& p : mesh.positions) p = roundedToFloat(p);
   const auto lines = linesOnFirst(mesh);
   CHECK(lines.size() == 10);
   double sum = 0;

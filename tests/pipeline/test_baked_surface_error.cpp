@@ -33,7 +33,7 @@ SurfaceError measure(const BakedPly& baked, std::size_t samples = 64) {
 Mesh scene(bool coloured) {
   Mesh mesh = shapes::boxesOnGround();
   if (coloured) mesh = shapes::colored(mesh, {0.75f, 0.5f, 0.25f});
-  for (Vec3d& p : mesh.positions) p = Vec3d(Vec3f(p));
+  for (Vec3d& p : mesh.positions) p = roundedToFloat(p);
   return mesh;
 }
 
