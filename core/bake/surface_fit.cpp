@@ -146,7 +146,7 @@ class SurfaceFitter {
       if (count >= static_cast<double>(kPilotSamples)) break;
       HeldOutSamples held = holdOut(tracer, roundedToEven(count), rays, kGlance + i * kStreamsOfSamples);
       const SampledMean before = held.squaredError(baked_.coefficients);
-      if (isEnough(before) || whyUseless(highOf(before), held)) return held;
+      if (whyUseless(highOf(before), held)) return held;
     }
     return holdOut(tracer, kPilotSamples, rays_, kPilot);
   }
@@ -183,8 +183,10 @@ class SurfaceFitter {
 
   static double highOf(const SampledMean& square) { return square.mean + kConfidence * square.error; }
 
+  /// A glance does not tell: errors in a few spots, which it may miss, are what fits are for.
   bool isEnough(const SampledMean& before) const {
-    return options_.kind == FitKind::automatic && highOf(before) <= options_.enough * options_.enough;
+    return options_.kind == FitKind::automatic && report_.heldOut >= kPilotSamples &&
+           highOf(before) <= options_.enough * options_.enough;
   }
 
   /// Why a fit cannot help, in words; null where it may. `before` is the squared error of the points as baked.

@@ -160,6 +160,7 @@ class AutoBaker {
       const SurfaceError& surface = result_.baked.facts.surface;
       result_.met = surface.samples == 0 || surface.rms <= tolerance();
       if (result_.met || bake == kMostBakes || !openRays_) break;
+      options_.fit.enough = 0;
       if (refined_ && refined_->end == RefineEnd::met && refined_->rounds > 0) {
         aim *= kAim * tolerance() / surface.rms;
         continue;
