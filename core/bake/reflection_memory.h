@@ -27,8 +27,8 @@ class ReflectionMemory {
     std::size_t hits;     ///< bytes of hits to keep, at most
   };
   /// The share with which fewest rays are traced again, of several the one with fewest batches; `hitBytes` is what all
-  /// hits take, stored or not. Where the budget
-  /// is below the narrowest solver, which needs 96 bytes a point, the solver exceeds it and no hit is kept.
+  /// hits take, stored or not. Where the budget is below the narrowest solver, which needs 96 bytes a point, the solver
+  /// exceeds it and no hit is kept.
   Share shareOut(std::size_t hitBytes) const;
 
   /// The smallest budget with which all hits are stored.
