@@ -154,7 +154,7 @@ std::string introduction(const AccuracyRun& run) {
 Both count, so they are charted against each other: on every mesh, what each method errs, and the CPU time that it takes
 for that. `shbake chart MESH -o chart.html` does the same on a mesh of your own.
 
-All figures and pictures of this page are made by one command, in some 15 minutes:
+All figures and pictures of this page are made by one command, in some 6 minutes on an idle machine:
 
 ```sh
 cmake --preset ci && cmake --build --preset ci --target bench_accuracy && build/ci/bench/bench_accuracy
