@@ -79,6 +79,7 @@ Contacts::Contacts(const LightingPoints& points, RTCSceneTy* scene, const Parall
 }
 
 std::span<const Contact> Contacts::of(std::uint32_t position) const {
+  if (contacts_.empty() || isClear(position)) return {};
   const auto [begin, end] = std::equal_range(positions_.begin(), positions_.end(), position);
   return {contacts_.data() + (begin - positions_.begin()), contacts_.data() + (end - positions_.begin())};
 }

@@ -42,8 +42,9 @@ class FanTest {
 
  private:
   struct Edge {
-    std::uint32_t position;  // the neighbour that the edge leads to; kNone where it leads along a face in contact
+    std::uint32_t position;  // the neighbour that the edge leads to; kNone of a closed fan and along a face in contact
     Vec3d direction;         // unit
+    double height;           // of the direction above the tangent plane
     Vec3f plane;             // normal of the plane through s and the edge, any length
     int uses;                // arcs that end here
   };
@@ -51,7 +52,9 @@ class FanTest {
     std::uint32_t face;
     std::uint32_t back;  // a coincident face wound the other way, or kNone
     int from, to;        // edges, ordered so that s lies on the positive side of from x to
+    double cosine;       // of the angle between them, in the fan
     Vec3f plane;         // normal of the face's plane on the side of s, any length
+    bool own;            // the point is a corner of the face, or of the one at its back, or lies on it
     bool front;          // s is on the front of the face
     bool rises;          // above the tangent plane
   };
@@ -59,19 +62,25 @@ class FanTest {
   bool risesAboveTangentPlane(std::uint32_t p) const;
   static constexpr std::uint32_t kNone = LightingPoints::kNone;
 
+  const Vec3d& directionOf(int edge) const { return edges_[static_cast<std::size_t>(edge)].direction; }
   int edgeTo(std::uint32_t position, const Vec3f& origin);
   int edgeAlong(const Vec3d& direction, std::size_t firstEdge);
   bool isOwn(std::uint32_t face, std::uint32_t p) const;
   const Contact* findOwnContact(std::uint32_t p) const;
   void addArc(std::uint32_t face, int from, int to, std::uint32_t p, std::size_t firstArc);
+  bool addClosedFan(std::uint32_t p);
   void addFan(std::uint32_t p);
+  void addOwnSectors(std::uint32_t p);
   void addSectors(const Contact& contact, std::uint32_t p, std::size_t firstEdge, std::size_t firstArc);
   void addContacts(std::uint32_t p, std::uint32_t startFace, const Vec3d& start);
   bool isCovered(std::uint32_t face, const Vec3d& direction, const Contact& by) const;
-  const Arc* chooseStart(std::uint32_t p, const Vec3d& normal, Vec3d& start) const;
+  double findOwn(std::uint32_t p);
+  const Arc* chooseStart(std::uint32_t p, const Vec3d& normal, Vec3d& start);
   void orient(const Vec3d& start);
   float findHighest(const Vec3d& start, const Vec3d& normal);
   void keepRisingArcs();
+  bool isCrossed(const Arc& arc, const Vec3f& direction) const;
+  bool isBlocked(const Vec3f& direction) const;
   std::uint32_t crossedOddly(std::size_t firstArc, std::size_t endArc, const float* x, const float* y, const float* z,
                              std::uint32_t* faces) const;
 
