@@ -91,17 +91,6 @@ const char* refinementName(SurfaceRefinement refinement) {
   }
 }
 
-const char* fitName(FitKind fit) {
-  switch (fit) {
-    case FitKind::automatic:
-      return "auto";
-    case FitKind::surface:
-      return "surface";
-    default:
-      return "vertex";
-  }
-}
-
 Json surfaceJson(const ChartData& data) {
   if (data.surface.points.empty()) return nullptr;
   std::vector<CurvePoint> all;

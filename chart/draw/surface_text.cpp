@@ -19,15 +19,8 @@ std::string refinementText(const SurfacePoint& p) {
   }
 }
 
-const char* fitText(FitKind fit) {
-  switch (fit) {
-    case FitKind::automatic:
-      return "--fit auto";
-    case FitKind::surface:
-      return "--fit surface";
-    default:
-      return "of the vertices";
-  }
+std::string fitText(FitKind fit) {
+  return fit == FitKind::vertex ? "of the vertices" : std::string("--fit ") + fitName(fit);
 }
 
 /// The options that differ from the default: "--rays 64 --fit auto", "--tolerance 0.02".

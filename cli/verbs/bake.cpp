@@ -121,7 +121,10 @@ void Bake::declareSurface(CLI::App& app) {
       {"--fit", "KIND",
        "vertex: the transfer at the vertices; surface: what interpolates best between them, in about twice the time; "
        "auto: fitted or smoothed where samples show that it helps"},
-      options_.fit.kind, {{"auto", FitKind::automatic}, {"vertex", FitKind::vertex}, {"surface", FitKind::surface}});
+      options_.fit.kind,
+      {{fitName(FitKind::automatic), FitKind::automatic},
+       {fitName(FitKind::vertex), FitKind::vertex},
+       {fitName(FitKind::surface), FitKind::surface}});
   addSwitch(app, "--two-sided", options_.bake.twoSided, "faces reflect from both sides (they block from both anyway)");
   addList(app, {"--blockers", "FILE...", "meshes that cast shadows and reflect but are not baked themselves"},
           blockers_);

@@ -99,7 +99,8 @@ std::vector<double> interpolationSquares(LightingPoints points, std::span<const 
       const auto p = static_cast<std::uint32_t>(firstPlace + s);
       ones[static_cast<std::size_t>(worker)].trace(p, one);
       others[static_cast<std::size_t>(worker)].trace(p, other);
-      squares[s] = relativeSquare(points, places[s], p, {first, one}, {second, other});
+      squares[s] = relativeSquare(points.facePoints[places[s].face], places[s].weights, points.pointAlbedo[p],
+                                  {first, one}, {second, other});
       progress.advance(2 * directions.size());
     }
   });

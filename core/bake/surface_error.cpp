@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "bake/baker.h"
 #include "bake/ray_scene.h"
+#include "bake/sampled_mean.h"
+#include "bake/senders.h"
 #include "bake/surface_places.h"
 #include "bake/surface_tracer.h"
 #include "base/error.h"
@@ -24,8 +23,6 @@ namespace {
 /// A set has no more rays than this, or as many as the bake, whose table of directions would not fit the memory at
 /// more.
 constexpr int kMostTruthRays = 65536;
-/// 97.5 % quantile of the normal distribution.
-constexpr double kConfidence = 1.959963984540054;
 /// The independent streams of random numbers.
 enum Stream : std::uint64_t { kPlaces, kFirstSet, kSecondSet };
 
@@ -36,7 +33,6 @@ class SurfaceMeter {
       : points_(std::move(points)), baked_(baked), bake_(bake), parallel_(parallel), progress_(progress) {}
 
   SurfaceError run(std::size_t faces, std::size_t samples, const TruthRays& rays) {
-    result_.samples = samples;
     firstSample_ = points_.size();
     places_ = drawPlaces(points_, areaWeights(points_, faces), samples, hashBits(bake_.seed, kPlaces), progress_);
     if (places_.empty()) return {};
@@ -46,14 +42,17 @@ class SurfaceMeter {
     } else {
       measureTraced(rays);
     }
-    summarise();
-    return result_;
+    SurfaceError error =
+        surfaceErrorOf(squares_, [&](std::size_t s) { return points_.filePosition(firstSample_ + s); });
+    error.rays = raysOfSample_;
+    return error;
   }
 
  private:
   double squareOf(std::size_t s, std::span<const double> first, std::span<const double> second) const {
     const auto p = static_cast<std::uint32_t>(firstSample_ + s);
-    return relativeSquare(points_, places_[s], p, {baked_, first}, {baked_, second});
+    return relativeSquare(points_.facePoints[places_[s].face], places_[s].weights, points_.pointAlbedo[p],
+                          {baked_, first}, {baked_, second});
   }
 
   void measureUnshadowed() {
@@ -73,34 +72,25 @@ class SurfaceMeter {
     progress_.end();
   }
 
-  /// What the faces send to the samples; null: nothing is reflected.
-  const TransferSet* findSenders() {
-    if (bake_.kind != TransferKind::interreflected || bake_.bounces == 0) return nullptr;
-    if (bake_.bounces == BakeOptions::kBouncesAuto) return &baked_;
-    // The last reflection counted is the one towards the samples.
-    BakeOptions oneLess = bake_;
-    --oneLess.bounces;
-    return &fewerBounces_.emplace(bakePoints(points_, {}, oneLess, parallel_, progress_).transfer);
-  }
-
   void measureTraced(const TruthRays& rays) {
-    const TransferSet* senders = findSenders();
+    const Senders senders(points_, baked_, bake_, parallel_, progress_);
     addPlaces(points_, places_);
     const auto maxDistance = static_cast<float>(bake_.maxDistance * points_.frame.scale);
     const RayScene scene(points_, maxDistance, parallel_, progress_);
     const int most = std::max(kMostTruthRays, bake_.rays);
     const DirectionSet directions(
         std::max(rays.least, bake_.rays > most / rays.perRay ? most : rays.perRay * bake_.rays), baked_.order);
-    result_.rays = 2 * directions.size();
+    raysOfSample_ = 2 * directions.size();
     std::vector<SurfaceTracer> first, second;
     for (int i = 0; i < parallel_.threads(); ++i) {
       const auto set = [&](Stream stream) {
-        return SurfaceTracer(points_, scene, directions, hashBits(bake_.seed, stream), bake_.twoSided, senders);
+        return SurfaceTracer(points_, scene, directions, hashBits(bake_.seed, stream), bake_.twoSided,
+                             senders.transfer());
       };
       first.push_back(set(kFirstSet));
       second.push_back(set(kSecondSet));
     }
-    progress_.begin("measuring the surface", static_cast<double>(places_.size()) * result_.rays, "rays");
+    progress_.begin("measuring the surface", static_cast<double>(places_.size()) * raysOfSample_, "rays");
     parallel_.forBlocks(places_.size(), 4, [&](std::size_t begin, std::size_t end, int worker) {
       const FlushDenormals flush;
       std::vector<double> one(baked_.stride()), other(baked_.stride());
@@ -109,28 +99,10 @@ class SurfaceMeter {
         first[static_cast<std::size_t>(worker)].trace(p, one);
         second[static_cast<std::size_t>(worker)].trace(p, other);
         squares_[s] = squareOf(s, one, other);
-        progress_.advance(result_.rays);
+        progress_.advance(raysOfSample_);
       }
     });
     progress_.end();
-  }
-
-  void summarise() {
-    const double n = static_cast<double>(squares_.size());
-    const double mean = std::accumulate(squares_.begin(), squares_.end(), 0.0) / n;
-    double variance = 0;  // of the mean: that of each stratum's, which is the mean of two, over their number
-    for (std::size_t s = 0; s + 1 < squares_.size(); s += 2) variance += std::pow(squares_[s] - squares_[s + 1], 2);
-    const double error = kConfidence * std::sqrt(variance) / n;
-    // Noise is subtracted: what is left of no error at all may be less than none.
-    const auto rootOf = [](double square) { return std::sqrt(std::max(0.0, square)); };
-    result_.rms = rootOf(mean);
-    result_.low = rootOf(mean - error);
-    result_.high = rootOf(mean + error);
-    const auto worst = std::max_element(squares_.begin(), squares_.end());
-    result_.worst = rootOf(*worst);
-    const auto position =
-        points_.positions[points_.pointPosition[firstSample_ + static_cast<std::size_t>(worst - squares_.begin())]];
-    result_.worstPosition = Vec3d(position) * (1 / points_.frame.scale) + points_.frame.centre;
   }
 
   LightingPoints points_;
@@ -141,8 +113,7 @@ class SurfaceMeter {
   std::size_t firstSample_ = 0;
   std::vector<SurfacePlace> places_;
   std::vector<double> squares_;  // of each sample's relative error; where rays are traced, with noise of mean zero
-  std::optional<TransferSet> fewerBounces_;
-  SurfaceError result_;
+  int raysOfSample_ = 0;
 };
 
 }  // namespace

@@ -7,9 +7,7 @@
 // its variance to E^2. Two independent sets of rays give t1 and t2, whose noise cancels in the mean of
 //   (t - t1) . (t - t2) = |t - (t1 + t2)/2|^2 - |t1 - t2|^2 / 4:
 // the squared error against all rays, less what the difference of the sets tells of their noise. The samples are
-// stratified: two in each of equal areas along the Morton curve of the faces, so that half their squared difference is
-// an unbiased estimate of the variance in a stratum (Cochran, "Sampling Techniques", 3rd ed. 1977, sections 5.3 and
-// 5.9).
+// stratified: two in each of equal areas along the Morton curve of the faces (sampled_mean.h).
 #pragma once
 
 #include <cstddef>

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <span>
 #include <utility>
 
+#include "bake/senders.h"
 #include "bake/smoothing.h"
 #include "bake/surface_fit_choice.h"
 #include "bake/surface_fit_samples.h"
@@ -42,7 +42,6 @@ constexpr double kMostNoise = 1e4;
 constexpr double kRounding = 1e-6;
 /// Places traced together.
 constexpr std::size_t kBatch = 1 << 20;
-constexpr double kConfidence = 1.959963984540054;
 /// The independent streams of random numbers, apart from those that measure the surface error.
 constexpr std::uint64_t kStreamsOfSamples = 4;
 enum Stream : std::uint64_t { kGlance = 8, kPilot = 16, kJudges = 20, kFitPlaces = 24, kFirstBatch };
@@ -70,7 +69,8 @@ class SurfaceFitter {
   FitReport run() {
     countFaces();
     if (measuredPoints_ == 0) return stop("no face has an area and reflects light");
-    PlaceTracer tracer(points_, baked_, findSenders(), bake_, parallel_, progress_);
+    const Senders senders(points_, baked_, bake_, parallel_, progress_);
+    PlaceTracer tracer(points_, baked_, senders.transfer(), bake_, parallel_, progress_);
     HeldOutSamples held =
         options_.kind == FitKind::automatic ? lookAround(tracer) : holdOut(tracer, kPilotSamples, rays_, kPilot);
     const SampledMean before = held.squaredError(baked_.coefficients);
@@ -104,12 +104,6 @@ class SurfaceFitter {
 
   bool isWanted(std::uint32_t p) const { return wanted_.empty() || wanted_[p] != 0; }
 
-  static HeldOutError rootOf(const SampledMean& square) {
-    const auto root = [](double s) { return std::sqrt(std::max(0.0, s)); };
-    const double reach = kConfidence * square.error;
-    return {root(square.mean), root(square.mean - reach), root(square.mean + reach)};
-  }
-
   /// The faces to fit: those of the mesh itself, whose corners are all wanted.
   void countFaces() {
     areas_ = areaWeights(points_, points_.faces.size());
@@ -125,16 +119,6 @@ class SurfaceFitter {
     measuredPoints_ = static_cast<std::size_t>(std::count(isMeasured_.begin(), isMeasured_.end(), 1));
   }
 
-  /// What the faces send to the samples; null: nothing is reflected.
-  const TransferSet* findSenders() {
-    if (bake_.kind != TransferKind::interreflected || bake_.bounces == 0) return nullptr;
-    if (bake_.bounces == BakeOptions::kBouncesAuto) return &baked_;
-    // The last reflection counted is the one towards the samples.
-    BakeOptions oneLess = bake_;
-    --oneLess.bounces;
-    return &fewerBounces_.emplace(bakePoints(points_, {}, oneLess, parallel_, progress_).transfer);
-  }
-
   std::uint64_t seed(std::uint64_t stream) const { return hashBits(bake_.seed, stream); }
 
   /// The first glance that tells for sure that a fit is of no use; the pilot where none does.
@@ -146,7 +130,7 @@ class SurfaceFitter {
       if (count >= static_cast<double>(kPilotSamples)) break;
       HeldOutSamples held = holdOut(tracer, roundedToEven(count), rays, kGlance + i * kStreamsOfSamples);
       const SampledMean before = held.squaredError(baked_.coefficients);
-      if (whyUseless(highOf(before), held)) return held;
+      if (whyUseless(before.high(), held)) return held;
     }
     return holdOut(tracer, kPilotSamples, rays_, kPilot);
   }
@@ -181,12 +165,10 @@ class SurfaceFitter {
     if (shares.takesAny()) report_.smoothedPoints = take(smoothed, shares);
   }
 
-  static double highOf(const SampledMean& square) { return square.mean + kConfidence * square.error; }
-
   /// A glance does not tell: errors in a few spots, which it may miss, are what fits are for.
   bool isEnough(const SampledMean& before) const {
     return options_.kind == FitKind::automatic && report_.heldOut >= kPilotSamples &&
-           highOf(before) <= options_.enough * options_.enough;
+           before.high() <= options_.enough * options_.enough;
   }
 
   /// Why a fit cannot help, in words; null where it may. `before` is the squared error of the points as baked.
@@ -271,11 +253,14 @@ class SurfaceFitter {
   std::vector<std::uint8_t> isMeasured_;
   std::size_t measuredFaces_ = 0, measuredPoints_ = 0;
   double totalArea_ = 0;
-  std::optional<TransferSet> fewerBounces_;
   FitReport report_;
 };
 
 }  // namespace
+
+const char* fitName(FitKind kind) {
+  return kind == FitKind::automatic ? "auto" : kind == FitKind::surface ? "surface" : "vertex";
+}
 
 void validate(const SurfaceFitOptions& o) {
   const auto require = [](bool ok, const char* name, int value, const char* range) {

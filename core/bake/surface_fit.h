@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "bake/baker.h"
+#include "bake/sampled_mean.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "mesh/lighting_points.h"
@@ -26,6 +27,9 @@ enum class FitKind {
   vertex,     ///< the transfer at the vertex itself
   surface,    ///< fitted to the surface everywhere
 };
+
+/// The name used on the command line and in reports: "auto", "vertex", "surface".
+const char* fitName(FitKind kind);
 
 struct SurfaceFitOptions {
   FitKind kind = FitKind::vertex;
@@ -42,12 +46,6 @@ struct SurfaceFitOptions {
 /// Throws a usage error that names the first option out of its range.
 void validate(const SurfaceFitOptions& options);
 
-/// An error measured at samples of the surface that had no part in the fit.
-struct HeldOutError {
-  double rms = 0;            ///< as SurfaceError::rms, free of the noise of the rays
-  double low = 0, high = 0;  ///< its 95 % confidence interval
-};
-
 /// What came of a fit.
 struct FitReport {
   std::string reason;              ///< why values were changed, or not; one sentence without a full stop
@@ -60,7 +58,9 @@ struct FitReport {
   double rays = 0;                 ///< traced for both, and for what looked whether to fit
   double fittedRays = 0;           ///< those among them that values were fitted to
   double ridge = 0;                ///< how many times the mass of its samples a point's own value weighed
-  HeldOutError before, after;      ///< none where there were no samples
+  /// The error as SurfaceError has it, free of the noise of the rays, at samples of the surface that had no part in
+  /// the fit; 0 where there were no samples.
+  RmsError before, after;
 };
 
 /// Replaces baked transfer by what is best interpolated. `baked` is what bakePoints() gave for the same points, wanted

@@ -15,8 +15,6 @@ namespace {
 
 /// Samples of a region: enough that the scatter of a share can be told from its noise.
 constexpr std::size_t kRegionSamples = 64;
-/// 97.5 % quantile of the normal distribution.
-constexpr double kConfidence = 1.959963984540054;
 
 /// What the samples of a region say: n and |d|^2 of above, summed.
 struct RegionGain {
@@ -26,17 +24,6 @@ struct RegionGain {
   double share() const { return n / d2; }
   double gain(double share) const { return share * (2 * n - share * d2); }
 };
-
-/// The mean of values that come in pairs from strata, and its standard error: maths.md (28).
-SampledMean stratifiedMean(std::span<const double> values) {
-  const auto count = static_cast<double>(values.size());
-  SampledMean result;
-  double variance = 0;
-  for (const double v : values) result.mean += v / count;
-  for (std::size_t s = 0; s + 1 < values.size(); s += 2) variance += std::pow(values[s] - values[s + 1], 2);
-  result.error = std::sqrt(variance) / count;
-  return result;
-}
 
 /// The shares of regions, drawn towards that of the whole.
 std::vector<double> drawTogether(std::span<const RegionGain> regions, double whole) {
@@ -166,8 +153,7 @@ RegionalShares HeldOutSamples::chooseShares(std::span<const float> from, std::sp
   const double whole = std::min(1.0, n / d2);
   std::vector<double> gained;
   for (const Gain& g : gains) gained.push_back(whole * (2 * g.n - whole * g.d2));
-  const SampledMean overall = stratifiedMean(gained);
-  if (overall.mean <= kConfidence * overall.error) return result;
+  if (stratifiedMean(gained).low() <= 0) return result;
 
   std::vector<RegionGain> regions(begins_.size());
   for (std::size_t r = 0; r < regions.size(); ++r) {

@@ -6,17 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "bake/sampled_mean.h"
 #include "bake/surface_fit_samples.h"
 #include "bake/surface_places.h"
 #include "mesh/lighting_points.h"
 #include "transfer/transfer_set.h"
 
 namespace shbake {
-
-/// A mean over samples and the standard error of it.
-struct SampledMean {
-  double mean = 0, error = 0;
-};
 
 /// How much of a change is taken, for each region of the surface: a stretch of the Morton curve, on which points are
 /// numbered.

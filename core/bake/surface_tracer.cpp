@@ -36,18 +36,16 @@ void SurfaceTracer::trace(std::uint32_t p, std::span<double> out) {
   }
 }
 
-double relativeSquare(const LightingPoints& points, const SurfacePlace& place, std::uint32_t point,
+double relativeSquare(const Triangle& corners, const std::array<double, 3>& weights, const Rgb& albedo,
                       const PlaceEstimate& a, const PlaceEstimate& b) {
-  const Triangle& corners = points.facePoints[place.face];
-  const Rgb& rho = points.pointAlbedo[point];
-  const std::array<float, 3> albedo{rho.x, rho.y, rho.z};
+  const std::array<float, 3> rho{albedo.x, albedo.y, albedo.z};
   std::vector<double> left(a.baked.stride(), 0), right(b.baked.stride(), 0);
-  addInterpolated(a.baked, corners, place.weights, 1, left);
-  addInterpolated(b.baked, corners, place.weights, 1, right);
+  addInterpolated(a.baked, corners, weights, 1, left);
+  addInterpolated(b.baked, corners, weights, 1, right);
   const std::size_t count = static_cast<std::size_t>(a.baked.coefficientsPerChannel());
   double product = 0, scale = 0;
   for (std::size_t c = 0; c < static_cast<std::size_t>(a.baked.channels); ++c) {
-    const double r = static_cast<double>(albedo[c]);
+    const double r = static_cast<double>(rho[c]);
     for (std::size_t i = c * count; i < (c + 1) * count; ++i) {
       product += (left[i] - r * a.truth[i]) * (right[i] - r * b.truth[i]);
     }

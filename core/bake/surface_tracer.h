@@ -1,6 +1,7 @@
 // The transfer of points on the surface that are no vertices, traced by a set of rays.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -42,10 +43,10 @@ struct PlaceEstimate {
   std::span<const double> truth;  ///< baked.stride() values
 };
 
-/// (t_a - t*_a) . (t_b - t*_b) / |t_unshadowed|^2 at a place, which is lighting point `point`, where t is interpolated
-/// and t* the truth times the place's albedo. Independent noise of the two estimates cancels in the mean, so that the
-/// square of the error remains; a single value may be negative. Not finite where the place is black.
-double relativeSquare(const LightingPoints& points, const SurfacePlace& place, std::uint32_t point,
+/// (t_a - t*_a) . (t_b - t*_b) / |t_unshadowed|^2 at the place with these `weights` of the points `corners`, where t is
+/// interpolated and t* the truth times the place's albedo. Independent noise of the two estimates cancels in the mean,
+/// so that the square of the error remains; a single value may be negative. Not finite where the place is black.
+double relativeSquare(const Triangle& corners, const std::array<double, 3>& weights, const Rgb& albedo,
                       const PlaceEstimate& a, const PlaceEstimate& b);
 
 }  // namespace shbake

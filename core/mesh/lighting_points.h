@@ -61,6 +61,8 @@ struct LightingPoints {
   static constexpr std::size_t kMaxFaces = 0xFFFFFFFEu / 3;
 
   std::size_t size() const { return pointPosition.size(); }
+  /// The place of a point in file units.
+  Vec3d filePosition(std::size_t point) const { return frame.toFile(Vec3d(positions[pointPosition[point]])); }
 };
 
 /// Welds vertices into lighting points. Two corners share a point when their position (in work units, bit for bit),

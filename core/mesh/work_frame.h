@@ -15,6 +15,8 @@ struct WorkFrame {
 
   /// Work coordinates never hold a negative zero, so that equal positions have equal bits.
   Vec3f toWork(const Vec3d& p) const { return Vec3f((p - centre) * scale) + Vec3f(); }
+  /// The way back, in double precision.
+  Vec3d toFile(const Vec3d& p) const { return p * (1 / scale) + centre; }
 };
 
 /// The work frame of a mesh: its bounding box is that of the vertices which faces use. Scale 1 where they all coincide.

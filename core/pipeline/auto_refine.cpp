@@ -83,7 +83,7 @@ Vec3d middleOf(const Mesh& mesh, std::uint32_t face) {
 Vec3d placeOn(const LightingPoints& points, const SurfacePlace& place) {
   Vec3d sum;
   for (std::size_t k = 0; k < 3; ++k) sum += Vec3d(points.positions[points.faces[place.face][k]]) * place.weights[k];
-  return sum * (1 / points.frame.scale) + points.frame.centre;
+  return points.frame.toFile(sum);
 }
 
 LengthField fieldAround(const Mesh& mesh) {

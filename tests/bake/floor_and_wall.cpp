@@ -16,7 +16,7 @@ double skyOfFloorAndWall(const LightingPoints& points, std::size_t face, const s
   Vec3d at;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3d corner(points.positions[points.faces[face][k]]);
-    at += (corner * (1 / points.frame.scale) + points.frame.centre) * weights[k];
+    at += points.frame.toFile(corner) * weights[k];
   }
   const bool onFloor = points.pointNormal[points.facePoints[face][0]].z > 0.5f;
   std::vector<Vec3d> other = onFloor ? std::vector<Vec3d>{{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}

@@ -155,7 +155,7 @@ TEST_CASE("a floor point in the corner of three squares sees what two finite wal
   const LightingPoints points = pointsOf(mesh);
   int checked = 0;
   for (std::uint32_t p = 0; p < points.size(); ++p) {
-    const Vec3d at = Vec3d(points.positions[points.pointPosition[p]]) * (1 / points.frame.scale) + points.frame.centre;
+    const Vec3d at = points.filePosition(p);
     if (points.pointNormal[p].z < 0.99f || at.x < 0.2 || at.y < 0.2 || at.x > 0.6) continue;
     if (at.y != 0.25 && at.y != 0.75) continue;
     std::vector<double> exact = openTransfer(kOrder, {0, 0, 1});
@@ -176,7 +176,7 @@ TEST_CASE("at a crease and in a corner each face sees the one-sided limit", "[cl
   const LightingPoints points = pointsOf(shapes::corner(4));
   int creases = 0, corners = 0;
   for (std::uint32_t p = 0; p < points.size(); ++p) {
-    const Vec3d at = Vec3d(points.positions[points.pointPosition[p]]) * (1 / points.frame.scale) + points.frame.centre;
+    const Vec3d at = points.filePosition(p);
     if (points.pointNormal[p].z < 0.99f) continue;
     if (at == Vec3d(0, 0, 0)) {
       checkPoint(points, p, transferOfSector(kOrder, 0, kPi / 2));
@@ -223,7 +223,7 @@ TEST_CASE("a red floor reddens a white wall by the floor's form factor", "[close
   const LightingPoints points = pointsOf(mesh);
   std::uint32_t wall = LightingPoints::kNone;
   for (std::uint32_t p = 0; p < points.size(); ++p) {
-    const Vec3d at = Vec3d(points.positions[points.pointPosition[p]]) * (1 / points.frame.scale) + points.frame.centre;
+    const Vec3d at = points.filePosition(p);
     if (length(at - Vec3d(0, 0.5, 0.5)) < 1e-6 && points.pointNormal[p].x > 0.9f) wall = p;
   }
   REQUIRE(wall != LightingPoints::kNone);

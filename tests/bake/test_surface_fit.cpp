@@ -163,7 +163,7 @@ TEST_CASE("what is good enough as it is stays as it is", "[surface_fit]") {
   const LightingPoints points = pointsOf(floorAndWall(3));
   const BakeOptions bake = optionsOf(TransferKind::shadowed, 2, 256);
   SurfaceFitOptions options = kindOf(FitKind::automatic);
-  const HeldOutError before = bakeAndFit(points, bake, options).report.before;
+  const RmsError before = bakeAndFit(points, bake, options).report.before;
   REQUIRE(before.low > 0);
   options.enough = 2 * before.high;
   const Fitted left = bakeAndFit(points, bake, options);

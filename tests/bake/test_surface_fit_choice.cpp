@@ -34,9 +34,7 @@ class MadeTruth {
 
   HeldOutSamples held() const { return HeldOutSamples(points_, places_, traced_, 1); }
   const LightingPoints& points() const { return points_; }
-  Vec3d position(std::uint32_t p) const {
-    return Vec3d(points_.positions[points_.pointPosition[p]]) * (1 / points_.frame.scale) + points_.frame.centre;
-  }
+  Vec3d position(std::uint32_t p) const { return points_.filePosition(p); }
   template <class OfPoint>
   std::vector<float> values(const OfPoint& ofPoint) const {
     std::vector<float> all;

@@ -54,6 +54,16 @@ TEST_CASE("a mesh without extent, and ones at the ends of the doubles' range, ha
   }
 }
 
+TEST_CASE("the way back from work units is exact where the way there was", "[work_frame]") {
+  const WorkFrame frame = frameOf(segment({10, 20, 30}, {16, 24, 38}));
+  REQUIRE(frame.centre == Vec3d(13, 22, 34));
+  REQUIRE(frame.scale == 0.25);
+  CHECK(frame.toFile({0.75, -0.5, 1}) == Vec3d(16, 20, 38));
+  for (const Vec3d& p : {Vec3d(10, 20, 30), Vec3d(16, 24, 38), Vec3d(11.5, 23.25, 37)}) {
+    CHECK(frame.toFile(Vec3d(frame.toWork(p))) == p);
+  }
+}
+
 TEST_CASE("floats around an exact centre keep their bits up to the scale", "[work_frame]") {
   const WorkFrame frame = frameOf(segment({-3, -3, -3}, {3, 3, 3}));
   CHECK(frame.scale == 0.25);
