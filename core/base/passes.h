@@ -25,6 +25,25 @@ void forEachCounted(Progress& progress, std::size_t count, double amount, Body&&
   }
 }
 
+/// Sorts as std::sort() does, which counts as `amount`, and looks at the Progress every kProgressBlock comparisons.
+/// Sorting is expected to take log2(n) of them for each of n things. After a stop, the things are there in any order.
+template <class Iterator, class Less>
+void sortCounted(Progress& progress, Iterator first, Iterator last, double amount, const Less& less) {
+  const auto count = static_cast<double>(last - first);
+  const double step = amount * kProgressBlock / std::max(1.0, count * std::log2(count + 1));
+  double counted = 0;
+  std::size_t comparisons = 0;
+  std::sort(first, last, [&](const auto& a, const auto& b) {
+    if (++comparisons % kProgressBlock == 0) {
+      const double now = std::min(step, amount - counted);
+      counted += now;
+      progress.advance(now);
+    }
+    return less(a, b);
+  });
+  progress.advance(amount - counted);
+}
+
 /// One stage of a Progress, made of passes that count alike, whatever each goes over. All members throw when the work
 /// has been cancelled, a pass within kProgressBlock things.
 class Passes {
@@ -41,23 +60,10 @@ class Passes {
     forEachCounted<Index>(progress_, count, perPass_, std::forward<Body>(body));
   }
 
-  /// One pass: sorts as std::sort() does, and looks at the Progress every kProgressBlock comparisons. Sorting is
-  /// expected to take log2(n) of them for each of n things. After a stop, the things are there in any order.
+  /// One pass: sortCounted().
   template <class Iterator, class Less>
   void sort(Iterator first, Iterator last, const Less& less) {
-    const auto count = static_cast<double>(last - first);
-    const double step = perPass_ * kProgressBlock / std::max(1.0, count * std::log2(count + 1));
-    double counted = 0;
-    std::size_t comparisons = 0;
-    std::sort(first, last, [&](const auto& a, const auto& b) {
-      if (++comparisons % kProgressBlock == 0) {
-        const double amount = std::min(step, perPass_ - counted);
-        counted += amount;
-        progress_.advance(amount);
-      }
-      return less(a, b);
-    });
-    progress_.advance(perPass_ - counted);
+    sortCounted(progress_, first, last, perPass_, less);
   }
 
   /// Ends the stage.

@@ -48,15 +48,21 @@ struct FaceShape {
 
   FaceShape(const Mesh& mesh, std::uint32_t face) {
     for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh.positions[mesh.triangles[face][k]];
-    const std::array<Vec3d, 3> p = sortedCorners();
-    const Vec3d ab = p[1] - p[0], ac = p[2] - p[0];
-    // Two of three corners follow each other as sorted, or as sorted the other way.
-    const bool turned = p[0] == corners[0]   ? p[1] != corners[1]
-                        : p[0] == corners[1] ? p[1] != corners[2]
-                                             : p[1] != corners[0];
+    std::array<Vec3d, 3> p = corners;
+    // Each exchange of two corners turns the face over.
+    bool turned = false;
+    const auto order = [&](std::size_t i, std::size_t j) {
+      if (!comesBefore(p[j], p[i])) return;
+      std::swap(p[i], p[j]);
+      turned = !turned;
+    };
+    order(0, 1);
+    order(1, 2);
+    order(0, 1);
+    const Vec3d ab = p[1] - p[0], ac = p[2] - p[0], bc = p[2] - p[1];
     areaVector = turned ? cross(ac, ab) : cross(ab, ac);
     ulp = coordinateUlp(mesh, std::max({magnitudeOf(corners[0]), magnitudeOf(corners[1]), magnitudeOf(corners[2])}));
-    const double longest = std::max({length(ab), length(ac), length(p[2] - p[1])});
+    const double longest = std::sqrt(std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)}));
     if (longest > 0) height = length(areaVector) / longest;
   }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "mesh/flat_geometry.h"
 #include "mesh/flat_parts.h"
 #include "support/shapes.h"
 
@@ -83,6 +84,34 @@ TEST_CASE("a plate beside a round edge is flat where a vertex lies all inside it
     CHECK(std::count(regions.begin() + plate, regions.end(), FlatRegions::kNone) ==
           static_cast<std::ptrdiff_t>(regions.size()) - plate);
   }
+}
+
+TEST_CASE("a strip so thin that rounding turns its faces joins what lies on both sides of it", "[refine]") {
+  // Rows of an inclined plane at these heights, in the precision of a file: the strip is eight units high.
+  Mesh mesh;
+  const int n = 40;
+  const std::vector<double> rows{1, 1.25, 1.25 + 1e-6, 1.5};
+  for (const double y : rows) {
+    for (int i = 0; i <= n; ++i) {
+      const double x = 1 + i / double(n);
+      mesh.positions.push_back(roundedToFloat({x, y, 0.3 * x + 0.7 * y}));
+    }
+  }
+  const auto at = [](int i, int j) { return static_cast<std::uint32_t>(j * (n + 1) + i); };
+  for (int j = 0; j + 1 < static_cast<int>(rows.size()); ++j) {
+    for (int i = 0; i < n; ++i) {
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  const Vec3d up = normalized(Vec3d(-0.3, -0.7, 1));
+  int turned = 0;
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    turned += angleBetween(FaceShape(mesh, f).normal(), up) > std::numbers::pi / 180;
+  }
+  REQUIRE(turned == 2 * n);
+  const auto regions = regionsOf(mesh);
+  CHECK(std::count(regions.begin(), regions.end(), 0u) == static_cast<std::ptrdiff_t>(regions.size()));
 }
 
 TEST_CASE("bends beyond the crease angle, and those where normals are split, end a region", "[refine]") {
