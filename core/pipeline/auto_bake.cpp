@@ -317,12 +317,13 @@ class AutoBaker {
       case RefineEnd::flatFine:
         return text + "it lies between the vertices of curved parts, which are not divided; subdivide them";
       case RefineEnd::flatDone:
-        return text + percent(refined_->curved) +
-               " lie between the vertices of curved parts, which are not divided; subdivide them";
+        // A fit takes off some of what interpolation misses.
+        return text + (refined_->curved < surface.rms ? percent(refined_->curved) + " lie" : "it lies") +
+               " between the vertices of curved parts, which are not divided; subdivide them";
       case RefineEnd::budget:
         return text + "no more than " + count(choose_.refinement.maxVertices) + " vertices were allowed";
       case RefineEnd::noProgress:
-        return text + "more vertices no longer lower it";
+        return text + "more vertices in flat parts no longer lower it";
       case RefineEnd::met:
         break;
     }

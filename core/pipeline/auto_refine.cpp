@@ -31,6 +31,9 @@ constexpr double kPlacesOnYoung = 2, kPlacesOnOld = 0.5, kMostExtraPlaces = 1310
 /// Where the square of the error is this many times the target's, edges are quartered instead of halved: at the edge of
 /// a shadow it falls with the edges' length.
 constexpr double kQuarterFrom = 6;
+/// Curved faces are not divided. What flat ones add to their squared error may be this much of it: the whole is then 5
+/// % above what vertices on flat faces cannot lower.
+constexpr double kBesideCurved = 0.1;
 /// A round asks for no more than this share of the squared error, so that its places can tell what the next has to do,
 /// and for no less than that, so that the last rounds do not creep.
 constexpr double kMostShare = 0.9, kLeastShare = 0.2;
@@ -142,9 +145,10 @@ class AutoRefiner {
       result_.curved = std::sqrt(std::max(0.0, curved_));
       if (result_.rounds++ == 0) result_.before = result_.after;
       const double target = options_.target * options_.target;
-      // What flat regions may leave: the rest of the target, but where curved faces have taken that already, no more
-      // than their own share of the surface.
-      const double flatTarget = std::max(target - std::max(0.0, curved_), target * flatShare_);
+      // What flat regions may leave: the rest of the target, but where curved faces have taken that already, as much as
+      // their share of the surface or as hardly shows beside what the others err.
+      const double curved = std::max(0.0, curved_);
+      const double flatTarget = std::max({target - curved, target * flatShare_, kBesideCurved * curved});
       if (flat_ <= (1 + kScatter) * flatTarget) {
         result_.end = square <= (1 + kScatter) * target ? RefineEnd::met : RefineEnd::flatDone;
         break;

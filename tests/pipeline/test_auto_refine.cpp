@@ -154,6 +154,21 @@ TEST_CASE("what curved parts miss is told apart", "[auto_refine]") {
   CHECK(refined.end == RefineEnd::flatDone);
   CHECK(refined.curved > 0.005);
   CHECK(refined.after >= refined.curved);
+  CHECK(refined.after < 0.95 * refined.before);
+}
+
+TEST_CASE("flat parts get no vertices that would not show beside what curved parts miss", "[auto_refine]") {
+  // The same sphere, much larger than the tile in its shadow.
+  const Mesh lump = shapes::translated(shapes::icosphere(1, 0.3), {0, 0, 1.2});
+  const Mesh mesh = shapes::merged(shapes::grid({-0.3, -0.3, 0}, {0.6, 0, 0}, {0, 0.6, 0}), lump);
+  const AutoRefinement refined = refine(mesh, 0.005);
+  CHECK(refined.end == RefineEnd::flatDone);
+  CHECK(refined.refined.mesh.positions == mesh.positions);
+  // The flat part misses more than the target all the same.
+  const double flat = std::pow(refined.after, 2) - std::pow(refined.curved, 2);
+  INFO("flat " << std::sqrt(flat) << " curved " << refined.curved);
+  CHECK(flat > 0.005 * 0.005);
+  CHECK(flat < 0.11 * std::pow(refined.curved, 2));
 }
 
 TEST_CASE("a budget of vertices is kept", "[auto_refine]") {
