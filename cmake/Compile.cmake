@@ -36,6 +36,12 @@ endif()
 if(SHBAKE_SANITIZE)
   target_compile_options(shbake_options INTERFACE -fsanitize=${SHBAKE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(shbake_options INTERFACE -fsanitize=${SHBAKE_SANITIZE})
+  if(SHBAKE_SANITIZE STREQUAL thread)
+    # Programs would export the functions of std::string that they hold a copy of, and Embree would call these, which are
+    # instrumented, for strings of its own. What orders its threads the sanitizer does not see.
+    target_link_options(shbake_options INTERFACE LINKER:--version-script=${PROJECT_SOURCE_DIR}/cmake/own_strings.map)
+    set_property(TARGET shbake_options APPEND PROPERTY INTERFACE_LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/own_strings.map)
+  endif()
   # Instrumented code hides from GCC's flow analysis that a value is set: it then warns of the standard library itself.
   target_compile_options(shbake_options INTERFACE -Wno-maybe-uninitialized)
 endif()
