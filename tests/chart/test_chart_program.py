@@ -59,8 +59,8 @@ class Chart(unittest.TestCase):
         return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
                               timeout=120, **options)
 
-    def chart(self, output, *arguments):
-        result = self.run_program("chart", "box.obj", "-o", output, "--budget", "3", *arguments)
+    def chart(self, output, *arguments, budget=3):
+        result = self.run_program("chart", "box.obj", "-o", output, "--budget", str(budget), *arguments)
         self.assertEqual(result.returncode, 0, result.stderr)
         return result
 
@@ -78,7 +78,7 @@ class Chart(unittest.TestCase):
         self.assertEqual(len(chart["advice"]), 4)
         cache = self.folder / "box.json.reference"
         kept = cache.read_bytes()
-        self.chart("box.json")
+        self.chart("box.json", budget=1)
         self.assertEqual(cache.read_bytes(), kept)
         cache.write_bytes(kept[:-3])
         result = self.chart("box.json")
@@ -88,7 +88,7 @@ class Chart(unittest.TestCase):
 
     @unittest.skipUnless(HAS_GNUPLOT, "gnuplot is not installed")
     def test_pictures_and_pages(self):
-        self.chart("box.png")
+        self.chart("box.png", budget=1)
         self.assertEqual((self.folder / "box.png").read_bytes()[:4], b"\x89PNG")
         self.chart("box.html")
         page = (self.folder / "box.html").read_text()
