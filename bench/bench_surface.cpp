@@ -1,6 +1,7 @@
 // bench_surface: whether refinement, fit and `--tolerance` hold what they promise, as places between the vertices judge
 // that no bake has seen. One table has the errors of the methods beside those of point sampling in the same CPU time;
-// the other has what bakes to a tolerance reached, what they took, and what settings found by a sweep would have taken.
+// another has what bakes to a tolerance reached, what they took, and what settings found by a sweep would have taken;
+// the third what a fit leaves of what interpolation misses and of the noise of the vertices.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -40,6 +41,8 @@ constexpr std::uint64_t kJudge = 0x5EED;
 constexpr int kLeastRays = 16, kMostRays = 4096;
 /// Methods are told no lower tolerance: below, all that counts on smooth meshes is the number of rays.
 constexpr double kLeastTolerance = 0.003;
+/// Rays whose noise does not count beside what interpolation misses.
+constexpr int kPlentyOfRays = 8192;
 /// Twice the rays that lower the error by less than this share: what is left lies between the vertices.
 constexpr double kFlatOut = 0.03;
 
@@ -107,6 +110,28 @@ class SurfaceBench {
     std::fflush(stdout);
   }
 
+  /// E^2 = (a I)^2 + b sigma^2, maths.md (33): I of point sampling with plenty of rays, a of the fit with as many, and
+  /// b where the vertices' noise is nearest to I.
+  void leftRow() {
+    const double missed = missedOf(bakeByHand(0, kPlentyOfRays, FitKind::vertex), 0.5);
+    const double left = missedOf(bakeByHand(0, kPlentyOfRays, FitKind::automatic), 0.4);
+    Trial few;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int rays = kLeastRays; rays <= kMostRays; rays *= 2) {
+      Trial t = bakeByHand(0, rays, FitKind::automatic);
+      const double distance = std::abs(std::log(t.bake.baked.facts.rmsError / missed));
+      if (distance < nearest) {
+        nearest = distance;
+        few = std::move(t);
+      }
+    }
+    const TransferFacts& facts = few.bake.baked.facts;
+    const double ofNoise = (few.error.rms * few.error.rms - left * left) / (facts.rmsError * facts.rmsError);
+    std::printf("%-24s %-14s %7.3f %5.2f | %6d %7.3f %5.2f |\n", label_.c_str(), transferName(kind_), 100 * missed,
+                left / missed, facts.rays, 100 * facts.rmsError, ofNoise);
+    std::fflush(stdout);
+  }
+
   void toleranceRow(double tolerance) {
     const Trial t = bakeTo(tolerance, FitKind::automatic);
     const TransferFacts& facts = t.bake.baked.facts;
@@ -121,6 +146,12 @@ class SurfaceBench {
   }
 
  private:
+  /// What a bake errs beside the noise of its vertices, `noise` of whose variance is left between them.
+  static double missedOf(const Trial& t, double noise) {
+    const double sigma = t.bake.baked.facts.rmsError;
+    return std::sqrt(std::max(0.0, t.error.rms * t.error.rms - noise * sigma * sigma));
+  }
+
   BakeMeshOptions bakeOptions(int rays, FitKind fit) const {
     BakeMeshOptions options;
     options.bake.kind = kind_;
@@ -298,6 +329,14 @@ void run(const Options& o) {
       for (const double tolerance : o.tolerances) bench.toleranceRow(tolerance);
     });
   }
+  if (has("left")) {
+    std::printf(
+        "order %d; I: what interpolation misses, in %%, and a, what an automatic fit leaves of it; b, what it leaves "
+        "of the "
+        "variance of the vertices' noise sigma at these rays\n%-24s %-14s %7s %5s | %6s %7s %5s |\n",
+        o.order, "mesh", "transfer", "I %", "a", "rays", "sigma %", "b");
+    each([](SurfaceBench& bench) { bench.leftRow(); });
+  }
 }
 
 }  // namespace
@@ -309,7 +348,8 @@ int main(int argc, char** argv) {
   Options o;
   const auto list = [](CLI::Option* option) { option->delimiter(',')->allow_extra_args(false); };
   app.add_option("meshes", o.meshes, "files or generated meshes; default: all");
-  list(app.add_option("--tables", o.tables, "methods, tolerances")->check(CLI::IsMember({"methods", "tolerances"})));
+  list(app.add_option("--tables", o.tables, "methods, tolerances, left")
+           ->check(CLI::IsMember({"methods", "tolerances", "left"})));
   list(app.add_option("--transfers", o.transfers, "shadowed, interreflected")
            ->check(CLI::IsMember({"shadowed", "interreflected"})));
   list(app.add_option("--tolerances", o.tolerances, "surface errors to reach"));

@@ -29,8 +29,8 @@ struct Left {
   double missed, noise;
 };
 constexpr Left kPlainLeft{1, 0.5};
-/// The same where values are fitted or smoothed as samples tell; measured on the scenes of bench_surface, where 0.6 to
-/// 0.85 and 0.2 to 0.5 are left: near the upper ends, for a second bake costs more than the vertices that it saves.
+/// The same where values are fitted or smoothed as samples tell; `bench_surface --tables left` measures 0.63 to 0.89
+/// and 0.06 to 0.55 on its scenes: near the upper ends, for a second bake costs more than the vertices that it saves.
 constexpr Left kFittedLeft{0.85, 0.4};
 /// The error that the vertices may always have, in tolerances, however little interpolation leaves to them.
 constexpr double kLeastNoise = 0.45;
