@@ -76,12 +76,12 @@ class MeshBench {
   /// Held-out places of a seed of their own, with the light that `senders` send them.
   HeldOutSamples truth(const TransferSet& senders) {
     const BakeOptions options = bakeOptions(options_.referenceRays);
-    PlaceTracer tracer(points_, senders, options_.interreflected ? &senders : nullptr, options, parallel_, progress_);
+    TracedPoints traced(points_, parallel_, progress_);
+    PlaceTracer tracer(traced, senders, options_.interreflected ? &senders : nullptr, options, parallel_, progress_);
     std::vector<SurfacePlace> places =
         drawPlaces(points_, areaWeights(points_, points_.faces.size()), options_.samples, 0x5EED, progress_);
-    PlaceTransfers traced =
-        tracer.trace(places, options_.referenceRays, std::array<std::uint64_t, 2>{0x5EED1, 0x5EED2});
-    return HeldOutSamples(points_, std::move(places), std::move(traced), senders.stride());
+    PlaceTransfers truth = tracer.trace(places, options_.referenceRays, std::array<std::uint64_t, 2>{0x5EED1, 0x5EED2});
+    return HeldOutSamples(points_, std::move(places), std::move(truth), senders.stride());
   }
 
   void row(int rays) {

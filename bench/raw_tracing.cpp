@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "bake/flush_denormals.h"
 #include "bake/ray_scene.h"
 #include "base/hash.h"
 #include "chart/methods/cpu_clock.h"

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "bake/direct_transfer.h"
+#include "bake/flush_denormals.h"
 #include "bake/point_tracer.h"
 #include "base/hash.h"
 #include "chart/methods/cpu_clock.h"

@@ -2,6 +2,7 @@
 #include "chart/sweep/direct.h"
 
 #include "bake/direct_transfer.h"
+#include "bake/flush_denormals.h"
 #include "bake/point_tracer.h"
 #include "sh/basis.h"
 

@@ -16,7 +16,7 @@
 #include "mesh/refine.h"
 #include "pipeline/auto_bake.h"
 #include "pipeline/auto_refine.h"
-#include "pipeline/scene_points.h"
+#include "pipeline/traced_scene.h"
 
 namespace shbake::chart {
 namespace {
@@ -184,8 +184,10 @@ class SurfaceStudier {
     BakeOptions bake = bake_;
     bake.rays = options_.rays;
     AutoRefinement made;
-    const double cpu =
-        leastCpu([&] { made = refineWhereLightChanges(mesh_, {}, scene_, {}, {}, bake, refine, parallel_, polled_); });
+    const double cpu = leastCpu([&] {
+      TracedScene scene(scene_, parallel_, polled_);
+      made = refineWhereLightChanges(mesh_, {}, scene, {}, {}, bake, refine, parallel_, polled_);
+    });
     if (made.end == RefineEnd::budget) return leaveOut();
     addRefined(made.refined.mesh, SurfaceRefinement::automatic, target, cpu);
     return made.end == RefineEnd::met;

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "bake/direct_transfer.h"
 #include "bake/fixed_point.h"
+#include "bake/flush_denormals.h"
 #include "bake/pilot.h"
 #include "bake/ray_scene.h"
 #include "bake/reflection_memory.h"
 #include "bake/reflections.h"
 #include "bake/stated_error.h"
+#include "bake/traced_points.h"
 #include "base/memory.h"
 #include "base/passes.h"
 #include "sh/basis.h"
@@ -28,9 +29,14 @@ constexpr std::size_t kSkyBlock = 16;
 
 class Baker {
  public:
-  Baker(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, const BakeOptions& options,
+  Baker(TracedPoints& points, const std::vector<std::uint8_t>& wanted, const BakeOptions& options,
         const Parallel& parallel, Progress& progress)
-      : points_(points), wanted_(wanted), options_(options), parallel_(parallel), progress_(progress) {
+      : traced_(points),
+        points_(points.points()),
+        wanted_(wanted),
+        options_(options),
+        parallel_(parallel),
+        progress_(progress) {
     result_.transfer.order = options.order;
     result_.transfer.channels = hasColor() ? 3 : 1;
   }
@@ -96,9 +102,9 @@ class Baker {
 
   void bakeTraced() {
     const float maxDistance = static_cast<float>(options_.maxDistance * points_.frame.scale);
-    std::optional<RayScene> scene(std::in_place, points_, maxDistance, parallel_, progress_);
+    const RayScene scene(points_, traced_.tree(), traced_.contacts(), maxDistance);
     const int rays =
-        options_.rays > 0 ? options_.rays : chooseRays(points_, wanted_, *scene, options_, parallel_, progress_);
+        options_.rays > 0 ? options_.rays : chooseRays(points_, wanted_, scene, options_, parallel_, progress_);
     const DirectionSet directions(rays, options_.order);
     result_.rays = directions.size();
     pairs_.assign(points_.size(), 0);
@@ -106,16 +112,16 @@ class Baker {
       bakeReflected(scene, directions);
     } else {
       allocate();
-      traceSky(*scene, directions);
+      traceSky(scene, directions);
     }
-    scene.reset();
+    if (!traced_.keepsForMore()) traced_.free();
     result_.transfer.error = statedErrors(points_, pairs_, roughness_, result_.rays, options_.order, progress_);
   }
 
-  /// Traces with hits and adds reflections; frees the scene as soon as it is of no use.
-  void bakeReflected(std::optional<RayScene>& scene, const DirectionSet& directions) {
+  /// Traces with hits and adds reflections; frees the tree before that takes memory, unless it is of use again.
+  void bakeReflected(const RayScene& scene, const DirectionSet& directions) {
     const ReflectionMemory memory(options_.memory, availableMemory(), points_.size(), paddedCount());
-    Reflections reflections(points_, *scene, directions, options_.seed, options_.twoSided, memory.hitsWhileTracing(),
+    Reflections reflections(points_, scene, directions, options_.seed, options_.twoSided, memory.hitsWhileTracing(),
                             parallel_);
     // Beside the BVH and the hits, masks take less than the result that they will be turned into, unless rays are many.
     const auto groups = static_cast<std::size_t>(directions.groups());
@@ -129,7 +135,9 @@ class Baker {
     result_.retracedPoints = reflections.forgottenPoints();
     result_.wantedMemory = memory.sufficient(reflections.hitBytes());
     // Its memory is more than the solver takes.
-    if (reflections.forgottenPoints() == 0) scene.reset();
+    const bool stays =
+        traced_.keepsForMore() && memory.hasRoomBeside(share, reflections.storedBytes(), traced_.tree().bytes());
+    if (reflections.forgottenPoints() == 0 && !stays) traced_.free();
     if (turnLater) {
       allocate();
       evaluateAll(directions, skies);
@@ -310,6 +318,7 @@ class Baker {
     result_.rmsError = area > 0 ? std::sqrt(sum / area) : 0;
   }
 
+  TracedPoints& traced_;
   const LightingPoints& points_;
   const std::vector<std::uint8_t>& wanted_;
   const BakeOptions& options_;
@@ -322,10 +331,16 @@ class Baker {
 
 }  // namespace
 
-PointBake bakePoints(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, const BakeOptions& options,
+PointBake bakePoints(TracedPoints& points, const std::vector<std::uint8_t>& wanted, const BakeOptions& options,
                      const Parallel& parallel, Progress& progress) {
   validate(options);
   return Baker(points, wanted, options, parallel, progress).run();
+}
+
+PointBake bakePoints(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, const BakeOptions& options,
+                     const Parallel& parallel, Progress& progress) {
+  TracedPoints once(points, parallel, progress);
+  return bakePoints(once, wanted, options, parallel, progress);
 }
 
 }  // namespace shbake

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bake/bake_options.h"
+#include "bake/traced_points.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "mesh/lighting_points.h"
@@ -30,7 +31,12 @@ struct PointBake {
 /// be left at zero where nothing depends on them. `wanted` has an entry for each point, or none where all are wanted.
 /// Memory: some 140 bytes a triangle for the BVH and what is found out about the mesh, beside the result, the stored
 /// hits and the solver's vectors, which options.memory limits together; the BVH is freed after tracing unless points
-/// have to be traced again (bench_memory measures it). Throws as bakeMesh().
+/// have to be traced again (bench_memory measures it), or it is kept for more and the budget holds it too. Throws as
+/// bakeMesh().
+PointBake bakePoints(TracedPoints& points, const std::vector<std::uint8_t>& wanted, const BakeOptions& options,
+                     const Parallel& parallel, Progress& progress);
+
+/// The same for points that nobody else traces.
 PointBake bakePoints(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, const BakeOptions& options,
                      const Parallel& parallel, Progress& progress);
 

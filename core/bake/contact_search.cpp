@@ -50,20 +50,33 @@ bool take(RTCPointQueryFunctionArguments* args) {
 
 }  // namespace
 
-Contacts::Contacts(const LightingPoints& points, RTCSceneTy* scene, const Parallel& parallel, Progress& progress)
-    : distance_(contactDistance(points)), clear_(points.positionFaces.size()) {
-  const std::size_t count = points.positionFaces.size();
+Contacts::Contacts(const LightingPoints& points, const FaceTree& tree, const Parallel& parallel, Progress& progress)
+    : distance_(tree.contact()), clear_(points.positions.size()) {
+  search(
+      points, tree, clear_.size(), [](std::size_t i) { return static_cast<std::uint32_t>(i); }, parallel, progress);
+}
+
+Contacts::Contacts(const LightingPoints& points, const FaceTree& tree, std::span<const std::uint32_t> positions,
+                   const Parallel& parallel, Progress& progress)
+    : distance_(tree.contact()), clear_(points.positions.size()) {
+  search(
+      points, tree, positions.size(), [&](std::size_t i) { return positions[i]; }, parallel, progress);
+}
+
+template <class PositionAt>
+void Contacts::search(const LightingPoints& points, const FaceTree& tree, std::size_t count,
+                      const PositionAt& positionAt, const Parallel& parallel, Progress& progress) {
   std::vector<std::vector<Found>> blocks((count + kBlock - 1) / kBlock);
   progress.begin("searching contacts", static_cast<double>(count), "positions");
   parallel.forBlocks(count, kBlock, [&](std::size_t begin, std::size_t end, int) {
     Query query{points, distance_, clearance(), static_cast<float>(kBoxMargin * clearance()), blocks[begin / kBlock]};
-    for (std::size_t p = begin; p < end; ++p) {
-      query.position = static_cast<std::uint32_t>(p);
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t p = query.position = positionAt(i);
       query.clear = true;
       RTCPointQuery near{points.positions[p].x, points.positions[p].y, points.positions[p].z, 0, query.margin};
       RTCPointQueryContext context;
       rtcInitPointQueryContext(&context);
-      rtcPointQuery(scene, &near, &context, take, &query);
+      rtcPointQuery(tree.scene(), &near, &context, take, &query);
       clear_[p] = query.clear ? 1 : 0;
     }
     progress.advance(static_cast<double>(end - begin));

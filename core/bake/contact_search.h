@@ -1,4 +1,5 @@
-// All contacts of a mesh, found once before it is traced, and the positions that are far from all faces but their own.
+// The contacts of positions, found once before rays start there, and which positions are far from all faces but their
+// own.
 #pragma once
 
 #include <cstdint>
@@ -6,10 +7,9 @@
 #include <vector>
 
 #include "bake/contact.h"
+#include "bake/face_tree.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-
-struct RTCSceneTy;  // what Embree's RTCScene points to
 
 namespace shbake {
 
@@ -17,10 +17,15 @@ namespace shbake {
 class Contacts {
  public:
   Contacts() = default;
-  /// Finds the faces that each position lies on without being their corner (contact.h), by point queries of the
-  /// committed Embree scene of the faces, whose primitives are numbered like them. Meshes whose faces meet in shared
-  /// corners alone have none. Cancelled by `progress`.
-  Contacts(const LightingPoints& points, RTCSceneTy* scene, const Parallel& parallel, Progress& progress);
+  /// Finds the faces that each position lies on without being their corner (contact.h), by point queries of `tree`,
+  /// which holds the faces of `points`. Meshes whose faces meet in shared corners alone have none. Cancelled by
+  /// `progress`.
+  Contacts(const LightingPoints& points, const FaceTree& tree, const Parallel& parallel, Progress& progress);
+
+  /// The same for some positions alone: of others, nothing is known. `points` may have places beyond those that the
+  /// tree was built of (addPlaces()).
+  Contacts(const LightingPoints& points, const FaceTree& tree, std::span<const std::uint32_t> positions,
+           const Parallel& parallel, Progress& progress);
 
   /// The contacts of a position; those with one part of a surface follow each other.
   std::span<const Contact> of(std::uint32_t position) const;
@@ -37,6 +42,10 @@ class Contacts {
 
  private:
   static constexpr double kClearance = 1024;
+
+  template <class PositionAt>
+  void search(const LightingPoints& points, const FaceTree& tree, std::size_t count, const PositionAt& positionAt,
+              const Parallel& parallel, Progress& progress);
 
   double distance_ = 0;
   std::vector<std::uint32_t> positions_;  // ascending, one entry a contact

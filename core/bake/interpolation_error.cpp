@@ -1,9 +1,11 @@
 #include "bake/interpolation_error.h"
 
+#include <algorithm>
 #include <array>
 
 #include "bake/baker.h"
 #include "bake/direction_set.h"
+#include "bake/flush_denormals.h"
 #include "bake/ray_scene.h"
 #include "bake/surface_tracer.h"
 #include "base/error.h"
@@ -16,13 +18,13 @@ namespace {
 enum Stream : std::uint64_t { kFirstBake, kSecondBake, kFirstRays, kSecondRays };
 
 /// A bake of the marked points, with reflections.
-TransferSet bakeOnce(const LightingPoints& points, const std::vector<std::uint8_t>& corners, BakeOptions options,
-                     Stream stream, const Parallel& parallel, Progress& progress) {
+TransferSet bakeOnce(TracedPoints& traced, const std::vector<std::uint8_t>& corners, BakeOptions options, Stream stream,
+                     const Parallel& parallel, Progress& progress) {
   options.seed = hashBits(options.seed, stream);
-  return bakePoints(points, corners, options, parallel, progress).transfer;
+  return bakePoints(traced, corners, options, parallel, progress).transfer;
 }
 
-/// The same without reflections, and without a ray scene of its own.
+/// The same without reflections, and without looking at other points.
 TransferSet traceOnce(const LightingPoints& points, const std::vector<std::uint8_t>& corners, const RayScene& scene,
                       const DirectionSet& directions, const BakeOptions& options, Stream stream,
                       const Parallel& parallel, Progress& progress) {
@@ -56,26 +58,40 @@ TransferSet traceOnce(const LightingPoints& points, const std::vector<std::uint8
   return set;
 }
 
+/// Appends the position of each point that is marked, once.
+void addPositions(const LightingPoints& points, const std::vector<std::uint8_t>& marked,
+                  std::vector<std::uint32_t>& positions) {
+  const auto first = static_cast<std::ptrdiff_t>(positions.size());
+  for (std::size_t p = 0; p < marked.size(); ++p) {
+    if (marked[p] != 0) positions.push_back(points.pointPosition[p]);
+  }
+  std::sort(positions.begin() + first, positions.end());
+  positions.erase(std::unique(positions.begin() + first, positions.end()), positions.end());
+}
+
 }  // namespace
 
-std::vector<double> interpolationSquares(LightingPoints points, std::span<const SurfacePlace> places,
+std::vector<double> interpolationSquares(TracedPoints& traced, std::span<const SurfacePlace> places,
                                          const BakeOptions& options, const Parallel& parallel, Progress& progress) {
   if (options.kind == TransferKind::unshadowed || options.rays == 0) {
     throw usageError("the error of interpolation needs rays", "set BakeOptions::rays and a kind that is traced");
   }
-  std::vector<std::uint8_t> corners(points.size(), 0);
+  const std::size_t firstPlace = traced.points().size();
+  const LightingPoints points = withPlaces(traced.points(), places);
+  std::vector<std::uint8_t> corners(firstPlace, 0);
   for (const SurfacePlace& place : places) {
     for (const std::uint32_t p : points.facePoints[place.face]) corners[p] = 1;
   }
   const bool reflects = options.kind == TransferKind::interreflected && options.bounces != 0;
   TransferSet first, second;
   if (reflects) {
-    first = bakeOnce(points, corners, options, kFirstBake, parallel, progress);
-    second = bakeOnce(points, corners, options, kSecondBake, parallel, progress);
+    first = bakeOnce(traced, corners, options, kFirstBake, parallel, progress);
+    second = bakeOnce(traced, corners, options, kSecondBake, parallel, progress);
   }
-  const std::size_t firstPlace = points.size();
-  addPlaces(points, places);
-  const RayScene scene(points, static_cast<float>(options.maxDistance * points.frame.scale), parallel, progress);
+  std::vector<std::uint32_t> origins = positionsFrom(points, firstPlace);
+  if (!reflects) addPositions(points, corners, origins);
+  const Contacts contacts(points, traced.tree(), origins, parallel, progress);
+  const RayScene scene(points, traced.tree(), contacts, static_cast<float>(options.maxDistance * points.frame.scale));
   const DirectionSet directions(options.rays, options.order);
   if (!reflects) {
     first = traceOnce(points, corners, scene, directions, options, kFirstBake, parallel, progress);

@@ -1,10 +1,6 @@
 // Hits on faces that touch the ray's own position.
 #include "bake/own_faces.h"
 
-#include <embree3/rtcore.h>
-
-#include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace shbake {
@@ -18,31 +14,13 @@ constexpr double kSuspect = 16;
 /// absolute values. Of slivers, whose normal is short, this is far more than the suspect distance.
 constexpr double kProductRounding = 16 * 0x1p-24;
 
-float longestEdge(const LightingPoints& points) {
-  float longest2 = 0;
-  for (const Triangle& t : points.faces) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3f edge = points.positions[t[k]] - points.positions[t[(k + 1) % 3]];
-      longest2 = std::max(longest2, dot(edge, edge));
-    }
-  }
-  return std::sqrt(longest2);
-}
-
-/// A bit for each lane of a packet that asks for an answer. Without branches: which lane it is cannot be predicted.
-unsigned askingLanes(const int* valid, unsigned count) {
-  unsigned lanes = 0;
-  for (unsigned i = 0; i < count; ++i) lanes |= static_cast<unsigned>(valid[i] == -1) << i;
-  return lanes;
-}
-
 }  // namespace
 
-OwnFaces::OwnFaces(const LightingPoints& points, double contact)
+OwnFaces::OwnFaces(const LightingPoints& points, double contact, float longestEdge)
     : points_(points),
       contact_(contact),
       suspect2_(static_cast<float>(std::pow(kSuspect * contact, 2))),
-      product_(static_cast<float>(kProductRounding * std::pow(static_cast<double>(longestEdge(points)), 3))) {}
+      product_(static_cast<float>(kProductRounding * std::pow(static_cast<double>(longestEdge), 3))) {}
 
 /// Whether the position lies on the plane of a face but for the rounding of coordinates. Exact to double.
 bool OwnFaces::isInContact(std::uint32_t face, std::uint32_t position) const {
@@ -58,20 +36,6 @@ bool OwnFaces::touches(std::uint32_t face, std::uint32_t position, const Vec3f& 
   if (beyond > 0 && beyond * beyond > suspect2_ * dot(normal, normal)) return false;
   const Triangle& t = points_.faces[face];
   return t[0] == position || t[1] == position || t[2] == position || isInContact(face, position);
-}
-
-void OwnFaces::leaveOut(const RTCFilterFunctionNArguments* args) {
-  const auto& own = *static_cast<const OwnFaces*>(args->geometryUserPtr);
-  const unsigned n = args->N;
-  for (unsigned lanes = askingLanes(args->valid, n); lanes != 0; lanes &= lanes - 1) {
-    const auto i = static_cast<unsigned>(std::countr_zero(lanes));
-    const Vec3f normal(RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i), RTCHitN_Ng_z(args->hit, n, i));
-    const Vec3f direction(RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i),
-                          RTCRayN_dir_z(args->ray, n, i));
-    const bool touches = own.touches(RTCHitN_primID(args->hit, n, i), RTCRayN_id(args->ray, n, i), normal, direction,
-                                     RTCRayN_tfar(args->ray, n, i));
-    if (touches) args->valid[i] = 0;
-  }
 }
 
 }  // namespace shbake

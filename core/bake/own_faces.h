@@ -6,25 +6,20 @@
 
 #include "mesh/lighting_points.h"
 
-struct RTCFilterFunctionNArguments;  // Embree's
-
 namespace shbake {
 
 /// Tells faces that a ray's position shares, and those that it lies on without sharing them (contact.h), from others.
 class OwnFaces {
  public:
-  /// `contact` is contactDistance() of `points`, which must outlive the object.
-  OwnFaces(const LightingPoints& points, double contact);
+  /// `contact` is contactDistance() of `points`, which must outlive the object, `longestEdge` that of a face in work
+  /// units.
+  OwnFaces(const LightingPoints& points, double contact, float longestEdge);
 
   /// Whether `face`, hit at `distance` along a ray from a position, touches that position. `normal` is the face's, of
   /// twice its area, as Embree gives it. Both kinds are met near their plane, which most hits are not: these pass
   /// without a look at the face, by float arithmetic whose error is nothing beside the bounds.
   bool touches(std::uint32_t face, std::uint32_t position, const Vec3f& normal, const Vec3f& direction,
                float distance) const;
-
-  /// An intersection filter that rejects hits on faces that touch their ray's position, whose id every ray carries. The
-  /// geometry's user data is an OwnFaces.
-  static void leaveOut(const RTCFilterFunctionNArguments* args);
 
  private:
   bool isInContact(std::uint32_t face, std::uint32_t position) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/flush_denormals.h"
 #include "bake/point_tracer.h"
 #include "bake/stated_error.h"
 #include "base/hash.h"

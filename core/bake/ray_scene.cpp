@@ -8,20 +8,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
-#include <new>
-#include <optional>
-#include <string>
 
 #include "bake/contact_search.h"
-#include "bake/face_twins.h"
 #include "bake/own_faces.h"
 #include "bake/own_planes.h"
-#include "base/error.h"
-#include "base/loop_order.h"
-
-#ifdef __SSE__
-#include <xmmintrin.h>
-#endif
 
 namespace shbake {
 namespace {
@@ -45,52 +35,74 @@ Hit onTwin(const std::vector<Triangle>& faces, const Hit& hit, std::uint32_t twi
   return {twin, weight(to[1]), weight(to[2])};
 }
 
-[[noreturn]] void fail(RTCError code, const char* text) {
-  if (code == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-  if (code == RTC_ERROR_CANCELLED) throw cancelledError();
-  throw Error({.cause = std::string("Embree cannot build the scene: ") + text});
+/// What a filter of Embree gets to know about the call that it is asked for, beginning with Embree's own part.
+struct Context {
+  RTCIntersectContext embree;
+  const OwnFaces* own;
+};
+
+/// A bit for each lane of a packet that asks for an answer. Without branches: which lane it is cannot be predicted.
+unsigned askingLanes(const int* valid, unsigned count) {
+  unsigned lanes = 0;
+  for (unsigned i = 0; i < count; ++i) lanes |= static_cast<unsigned>(valid[i] == -1) << i;
+  return lanes;
 }
 
-/// Builds what rays are traced in, on the threads of `parallel`; errors come through the device's function for them.
-void build(RTCScene scene, const Parallel& parallel, Progress& progress) {
-  struct Watch {
-    Progress& progress;
-    LoopOrder order{0};
-  } watch{progress};
-  // Embree calls it from a loop of its own.
-  rtcSetSceneProgressMonitorFunction(
-      scene,
-      [](void* user, double) {
-        Watch& w = *static_cast<Watch*>(user);
-        const LoopOrder::Block block(w.order);
-        return w.progress.tryAdvance(0);
-      },
-      &watch);
-  // Joined from our own threads: a device with a number of threads would set a limit for the whole process.
-  parallel.forBlocks(1, 1, [&](std::size_t, std::size_t, int) { rtcJoinCommitScene(scene); });
-  rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
+/// An intersection filter that rejects hits on faces that touch their ray's position, whose id every ray carries.
+void leaveOut(const RTCFilterFunctionNArguments* args) {
+  const OwnFaces& own = *reinterpret_cast<const Context*>(args->context)->own;
+  const unsigned n = args->N;
+  for (unsigned lanes = askingLanes(args->valid, n); lanes != 0; lanes &= lanes - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(lanes));
+    const Vec3f normal(RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i), RTCHitN_Ng_z(args->hit, n, i));
+    const Vec3f direction(RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i),
+                          RTCRayN_dir_z(args->ray, n, i));
+    const bool touches = own.touches(RTCHitN_primID(args->hit, n, i), RTCRayN_id(args->ray, n, i), normal, direction,
+                                     RTCRayN_tfar(args->ray, n, i));
+    if (touches) args->valid[i] = 0;
+  }
+}
+
+/// With leaveOut() or without a filter.
+Context contextOf(const OwnFaces& own, bool filtered) {
+  Context context{{}, &own};
+  rtcInitIntersectContext(&context.embree);
+  context.embree.filter = filtered ? leaveOut : nullptr;
+  return context;
 }
 
 }  // namespace
 
 struct RayScene::State {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
-  const LightingPoints* points = nullptr;
-  std::vector<Vec3f> padded;  // a copy of the positions where these have no room behind them
-  std::vector<std::uint32_t> twins;
-  Contacts contacts;
-  std::optional<OwnFaces> own;
-  float near = 0, clearNear = 0;  // where rays begin, the latter those of positions clear of other faces
-  float far = 0;
-  bool packets = false;  // 16-wide packets are native; the stream is faster elsewhere
-  RTCError error = RTC_ERROR_NONE;
-  std::string errorText;
+  const LightingPoints& points;
+  const FaceTree& tree;
+  const Contacts& contacts;
+  OwnFaces own;
+  float near, clearNear;  // where rays begin, the latter those of positions clear of other faces
+  float far;
+  RTCScene scene;
+  bool packets;
 
-  ~State() {
-    if (scene != nullptr) rtcReleaseScene(scene);
-    if (device != nullptr) rtcReleaseDevice(device);
-  }
+  State(const LightingPoints& p, const FaceTree& t, const Contacts& c, float maxDistance)
+      : points(p),
+        tree(t),
+        contacts(c),
+        own(p, t.contact(), t.longestEdge()),
+        // What is hit nearer than this along the ray is nearer than contact in any case.
+        near(static_cast<float>(kNear * t.contact())),
+        clearNear(static_cast<float>(kNear * c.clearance())),
+        far(maxDistance),
+        scene(t.scene()),
+        packets(t.hasPackets()) {}
+};
+
+/// What a scene has to itself where nobody else has use for it.
+struct RayScene::Own {
+  FaceTree tree;
+  Contacts contacts;
+
+  Own(const LightingPoints& points, const Parallel& parallel, Progress& progress)
+      : tree(points, parallel, progress), contacts(points, tree, parallel, progress) {}
 };
 
 class RayScene::Buffers {
@@ -109,60 +121,12 @@ RayScene::BuffersPtr RayScene::makeBuffers() const {
   return BuffersPtr(new Buffers);
 }
 
+RayScene::RayScene(const LightingPoints& points, const FaceTree& tree, const Contacts& contacts, float maxDistance)
+    : state_(std::make_unique<State>(points, tree, contacts, maxDistance)) {}
+
 RayScene::RayScene(const LightingPoints& points, float maxDistance, const Parallel& parallel, Progress& progress)
-    : state_(std::make_unique<State>()) {
-  State& s = *state_;
-  s.points = &points;
-  const double contact = contactDistance(points);
-  // What is hit nearer than this along the ray is nearer than contact in any case.
-  s.near = static_cast<float>(kNear * contact);
-  s.far = maxDistance;
-  // Embree loads positions as four floats, the last one's fourth from behind the array.
-  const bool hasRoom = points.positions.capacity() > points.positions.size();
-  if (!hasRoom) {
-    s.padded.reserve(points.positions.size() + 1);
-    s.padded = points.positions;
-  }
-  const Vec3f* positions = hasRoom ? points.positions.data() : s.padded.data();
-  s.own.emplace(points, contact);
-
-  s.twins = faceTwins(points, progress);
-
-  const FlushDenormals flush;
-  s.device = rtcNewDevice(nullptr);
-  if (s.device == nullptr) fail(rtcGetDeviceError(nullptr), "no device");
-  rtcSetDeviceErrorFunction(
-      s.device,
-      [](void* user, RTCError code, const char* text) {
-        auto* state = static_cast<State*>(user);
-        state->error = code;
-        // Who stopped the work needs no words about it.
-        if (code != RTC_ERROR_CANCELLED) state->errorText = text == nullptr ? "" : text;
-      },
-      &s);
-  s.packets = rtcGetDeviceProperty(s.device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
-
-  RTCGeometry geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions, 0, sizeof(Vec3f),
-                             points.positions.size());
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, points.faces.data(), 0,
-                             sizeof(Triangle), points.faces.size());
-  rtcSetGeometryUserData(geometry, &*s.own);
-  rtcCommitGeometry(geometry);
-
-  s.scene = rtcNewScene(s.device);
-  rtcSetSceneBuildQuality(s.scene, RTC_BUILD_QUALITY_MEDIUM);
-  // Which rays need the filter that leaves out own faces is told with the rays.
-  rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
-  rtcAttachGeometry(s.scene, geometry);
-  rtcReleaseGeometry(geometry);
-  progress.begin("building", 0, "faces");
-  build(s.scene, parallel, progress);
-  if (s.error != RTC_ERROR_NONE) fail(s.error, s.errorText.c_str());
-  progress.end();
-  s.contacts = Contacts(points, s.scene, parallel, progress);
-  s.clearNear = static_cast<float>(kNear * s.contacts.clearance());
-}
+    : own_(std::make_unique<Own>(points, parallel, progress)),
+      state_(std::make_unique<State>(points, own_->tree, own_->contacts, maxDistance)) {}
 
 RayScene::~RayScene() = default;
 
@@ -236,14 +200,6 @@ Entry* fillStream(Entry* entry, const RayScene::Rays& rays, const std::uint16_t*
   return entry;
 }
 
-/// With OwnFaces::leaveOut or without a filter.
-RTCIntersectContext contextOf(bool filtered) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.filter = filtered ? OwnFaces::leaveOut : nullptr;
-  return context;
-}
-
 }  // namespace
 
 void RayScene::Rays::turn(int group, float* worldX, float* worldY, float* worldZ) const {
@@ -297,7 +253,7 @@ unsigned RayScene::findDoubtful(std::span<const Rays> batch, const Masks& open, 
     for (int k = 0; k < rays.groups; ++k, ++g) {
       if (open[g] == 0 || hit[g] == 0) continue;
       if (!known) {
-        buffers.planes.setPosition(*s.points, rays.position, rays.axisX, rays.axisY, rays.axisZ, s.clearNear);
+        buffers.planes.setPosition(s.points, rays.position, rays.axisX, rays.axisY, rays.axisZ, s.clearNear);
         known = true;
       }
       const std::size_t first = static_cast<std::size_t>(k) * 16;
@@ -313,15 +269,16 @@ void RayScene::traceShadows(std::span<const Rays> batch, const Masks& active, bo
   const State& s = *state_;
   if (s.packets) return tracePackets(batch, active, filtered, buffers, hit);
   const float near = filtered ? s.near : s.clearNear;
-  RTCIntersectContext context = contextOf(filtered);
+  Context context = contextOf(s.own, filtered);
   RTCRay* end = buffers.shadowStream.data();
   std::size_t groups = 0;
   for (const Rays& rays : batch) {
-    end = fillStream(end, rays, &active[groups], s.points->positions[rays.position], near, s.far);
+    end = fillStream(end, rays, &active[groups], s.points.positions[rays.position], near, s.far);
     groups += static_cast<std::size_t>(rays.groups);
   }
   const RTCRay* ray = buffers.shadowStream.data();
-  rtcOccluded1M(s.scene, &context, buffers.shadowStream.data(), static_cast<unsigned>(end - ray), sizeof(RTCRay));
+  rtcOccluded1M(s.scene, &context.embree, buffers.shadowStream.data(), static_cast<unsigned>(end - ray),
+                sizeof(RTCRay));
   // Embree sets tfar of what is occluded to -inf.
   const auto occludedBit = [&](unsigned i) { return std::bit_cast<std::uint32_t>(ray++->tfar) >> 31 << i; };
   for (std::size_t g = 0; g < groups; ++g) {
@@ -341,11 +298,11 @@ void RayScene::tracePackets(std::span<const Rays> batch, const Masks& active, bo
                             std::uint16_t* hit) const {
   const State& s = *state_;
   const float near = filtered ? s.near : s.clearNear;
-  RTCIntersectContext context = contextOf(filtered);
+  Context context = contextOf(s.own, filtered);
   RTCRay16& r = buffers.packet.ray;
   std::size_t g = 0;
   for (const Rays& rays : batch) {
-    const Vec3f origin = s.points->positions[rays.position];
+    const Vec3f origin = s.points.positions[rays.position];
     for (unsigned i = 0; i < 16; ++i) setCommon(r, i, origin, near, rays.position);
     for (int k = 0; k < rays.groups; ++k, ++g) {
       hit[g] = 0;
@@ -353,7 +310,7 @@ void RayScene::tracePackets(std::span<const Rays> batch, const Masks& active, bo
       rays.turn(k, r.dir_x, r.dir_y, r.dir_z);
       std::fill_n(r.tfar, 16, s.far);
       alignas(64) const auto valid = laneFlags(active[g]);
-      rtcOccluded16(valid.data(), s.scene, &context, &r);
+      rtcOccluded16(valid.data(), s.scene, &context.embree, &r);
       for (unsigned i = 0; i < 16; ++i) hit[g] |= static_cast<std::uint16_t>((r.tfar[i] < 0) << i);
     }
   }
@@ -361,6 +318,7 @@ void RayScene::tracePackets(std::span<const Rays> batch, const Masks& active, bo
 
 void RayScene::closest(const Rays& rays, Buffers& buffers, std::uint16_t* hit, std::uint16_t* front, Hit* hits) const {
   const State& s = *state_;
+  const std::vector<std::uint32_t>& twins = s.tree.twins();
   std::fill_n(hit, rays.groups, std::uint16_t(0));
   std::fill_n(front, rays.groups, std::uint16_t(0));
   Masks own{};
@@ -370,7 +328,7 @@ void RayScene::closest(const Rays& rays, Buffers& buffers, std::uint16_t* hit, s
   const auto take = [&](std::size_t k, const Vec3f& direction, float distance, unsigned face, const Vec3f& normal,
                         float u, float v) {
     const auto bit = static_cast<std::uint16_t>(1u << (k % 16));
-    if (open && (own[k / 16] & bit) == 0 && s.own->touches(face, rays.position, normal, direction, distance)) {
+    if (open && (own[k / 16] & bit) == 0 && s.own.touches(face, rays.position, normal, direction, distance)) {
       own[k / 16] |= bit;
       anyOwn |= bit;
       return;
@@ -378,8 +336,8 @@ void RayScene::closest(const Rays& rays, Buffers& buffers, std::uint16_t* hit, s
     hit[k / 16] |= bit;
     hits[k] = {face, quantise(u), quantise(v)};
     const float towards = dot(normal, direction);
-    const bool isTwin = towards > 0 && !s.twins.empty() && s.twins[face] != LightingPoints::kNone;
-    if (isTwin) hits[k] = onTwin(s.points->faces, hits[k], s.twins[face]);
+    const bool isTwin = towards > 0 && !twins.empty() && twins[face] != LightingPoints::kNone;
+    if (isTwin) hits[k] = onTwin(s.points.faces, hits[k], twins[face]);
     if (towards < 0 || isTwin) front[k / 16] |= bit;
   };
   traceHits(rays, rays.active, !open, buffers, take);
@@ -390,13 +348,13 @@ template <class Take>
 void RayScene::traceHits(const Rays& rays, const std::uint16_t* active, bool filtered, Buffers& buffers,
                          const Take& take) const {
   const State& s = *state_;
-  const Vec3f origin = s.points->positions[rays.position];
-  RTCIntersectContext context = contextOf(filtered);
+  const Vec3f origin = s.points.positions[rays.position];
+  Context context = contextOf(s.own, filtered);
   if (!s.packets) {
     RTCRayHit* const begin = buffers.hitStream.data();
     RTCRayHit* const end = fillStream(begin, rays, active, origin, s.near, s.far);
     for (RTCRayHit* entry = begin; entry != end; ++entry) entry->hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1M(s.scene, &context, begin, static_cast<unsigned>(end - begin), sizeof(RTCRayHit));
+    rtcIntersect1M(s.scene, &context.embree, begin, static_cast<unsigned>(end - begin), sizeof(RTCRayHit));
     const RTCRayHit* entry = begin;
     forActive(active, rays.groups, [&](std::size_t k) {
       const auto& [r, h] = *entry++;
@@ -414,7 +372,7 @@ void RayScene::traceHits(const Rays& rays, const std::uint16_t* active, bool fil
     std::fill_n(r.tfar, 16, s.far);
     std::fill_n(h.geomID, 16, RTC_INVALID_GEOMETRY_ID);
     alignas(64) const auto valid = laneFlags(active[g]);
-    rtcIntersect16(valid.data(), s.scene, &context, &buffers.packet);
+    rtcIntersect16(valid.data(), s.scene, &context.embree, &buffers.packet);
     for (unsigned i = 0; i < 16; ++i) {
       if (h.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
       take(static_cast<std::size_t>(g) * 16 + i, {r.dir_x[i], r.dir_y[i], r.dir_z[i]}, r.tfar[i], h.primID[i],
@@ -422,17 +380,5 @@ void RayScene::traceHits(const Rays& rays, const std::uint16_t* active, bool fil
     }
   }
 }
-
-#ifdef __SSE__
-FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) {
-  _mm_setcsr(saved_ | 0x8040);
-}
-FlushDenormals::~FlushDenormals() {
-  _mm_setcsr(saved_);
-}
-#else
-FlushDenormals::FlushDenormals() : saved_(0) {}
-FlushDenormals::~FlushDenormals() = default;
-#endif
 
 }  // namespace shbake

@@ -1,4 +1,4 @@
-// The faces of a scene in Embree, answering for rays that start at a lighting point's position.
+// Rays that start at a lighting point's position, traced among the faces of a scene.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bake/contact_search.h"
+#include "bake/face_tree.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "mesh/lighting_points.h"
@@ -30,8 +31,12 @@ class RayScene {
   /// Groups of rays in a call, at most.
   static constexpr int kMaxGroups = 64;
 
-  /// Builds the BVH on the threads of `parallel`. `points` must outlive the scene: Embree traces its arrays in place.
-  /// `maxDistance` in work units. Throws a work error where Embree fails (out of memory), cancelled by `progress`.
+  /// Rays are as long as `maxDistance` in work units. `tree` holds the faces of `points`, which may have places beyond
+  /// those that it was built of (addPlaces()); `contacts` knows all positions that rays will start from. References
+  /// must outlive the scene.
+  RayScene(const LightingPoints& points, const FaceTree& tree, const Contacts& contacts, float maxDistance);
+
+  /// With a tree and contacts of its own, for rays from all positions. Throws as FaceTree's constructor.
   RayScene(const LightingPoints& points, float maxDistance, const Parallel& parallel, Progress& progress);
   ~RayScene();
 
@@ -84,19 +89,9 @@ class RayScene {
   void traceHits(const Rays& rays, const std::uint16_t* active, bool filtered, Buffers& buffers,
                  const Take& take) const;
 
-  std::unique_ptr<State> state_;
-};
-
-/// While it lives, this thread flushes denormal numbers to zero, as Embree asks for.
-class FlushDenormals {
- public:
-  FlushDenormals();
-  ~FlushDenormals();
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
-
- private:
-  unsigned saved_;
+  struct Own;
+  std::unique_ptr<Own> own_;
+  std::unique_ptr<const State> state_;
 };
 
 }  // namespace shbake

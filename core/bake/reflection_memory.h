@@ -31,6 +31,11 @@ class ReflectionMemory {
   /// exceeds it and no hit is kept.
   Share shareOut(std::size_t hitBytes) const;
 
+  /// Whether the budget holds `bytes` of something else beside the hits that are stored and the solver.
+  bool hasRoomBeside(const Share& share, std::size_t storedBytes, std::size_t bytes) const {
+    return storedBytes + solverBytes(share.columns) + bytes <= budget_;
+  }
+
   /// The smallest budget with which all hits are stored.
   std::size_t sufficient(std::size_t hitBytes) const { return hitBytes + solverBytes(kColumns); }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "bake/flush_denormals.h"
+
 namespace shbake {
 namespace {
 

@@ -4,8 +4,8 @@
 
 namespace shbake {
 
-Senders::Senders(const LightingPoints& points, const TransferSet& baked, const BakeOptions& bake,
-                 const Parallel& parallel, Progress& progress) {
+Senders::Senders(TracedPoints& traced, const TransferSet& baked, const BakeOptions& bake, const Parallel& parallel,
+                 Progress& progress) {
   if (bake.kind != TransferKind::interreflected || bake.bounces == 0) return;
   if (bake.bounces == BakeOptions::kBouncesAuto) {
     transfer_ = &baked;
@@ -13,7 +13,7 @@ Senders::Senders(const LightingPoints& points, const TransferSet& baked, const B
   }
   BakeOptions oneLess = bake;
   --oneLess.bounces;
-  transfer_ = &fewerBounces_.emplace(bakePoints(points, {}, oneLess, parallel, progress).transfer);
+  transfer_ = &fewerBounces_.emplace(bakePoints(traced, {}, oneLess, parallel, progress).transfer);
 }
 
 }  // namespace shbake

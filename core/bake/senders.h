@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "bake/bake_options.h"
+#include "bake/traced_points.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "mesh/lighting_points.h"
 #include "transfer/transfer_set.h"
 
 namespace shbake {
@@ -14,11 +14,11 @@ namespace shbake {
 /// The transfer that faces send to places between their corners, so that a place has as many reflections as a vertex.
 class Senders {
  public:
-  /// `baked` is what bakePoints() gave for `points` with the options `bake`, whose `rays` must be the number that it
+  /// `baked` is what bakePoints() gave for `traced` with the options `bake`, whose `rays` must be the number that it
   /// took. It sends itself where reflections were summed to the tolerance; where they were counted, the last one is
   /// that towards the places, and the constructor bakes again with one less: it throws as bakePoints() then. `baked`
   /// must outlive the object.
-  Senders(const LightingPoints& points, const TransferSet& baked, const BakeOptions& bake, const Parallel& parallel,
+  Senders(TracedPoints& traced, const TransferSet& baked, const BakeOptions& bake, const Parallel& parallel,
           Progress& progress);
   Senders(const Senders&) = delete;
   Senders& operator=(const Senders&) = delete;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bake/flush_denormals.h"
 #include "bake/ray_scene.h"
 #include "bake/sampled_mean.h"
 #include "bake/senders.h"
@@ -28,13 +29,18 @@ enum Stream : std::uint64_t { kPlaces, kFirstSet, kSecondSet };
 
 class SurfaceMeter {
  public:
-  SurfaceMeter(LightingPoints points, const TransferSet& baked, const BakeOptions& bake, const Parallel& parallel,
+  SurfaceMeter(TracedPoints& traced, const TransferSet& baked, const BakeOptions& bake, const Parallel& parallel,
                Progress& progress)
-      : points_(std::move(points)), baked_(baked), bake_(bake), parallel_(parallel), progress_(progress) {}
+      : traced_(traced),
+        baked_(baked),
+        bake_(bake),
+        parallel_(parallel),
+        progress_(progress),
+        firstSample_(traced.points().size()) {}
 
   SurfaceError run(std::size_t faces, std::size_t samples, const TruthRays& rays) {
-    firstSample_ = points_.size();
-    places_ = drawPlaces(points_, areaWeights(points_, faces), samples, hashBits(bake_.seed, kPlaces), progress_);
+    const LightingPoints& own = traced_.points();
+    places_ = drawPlaces(own, areaWeights(own, faces), samples, hashBits(bake_.seed, kPlaces), progress_);
     if (places_.empty()) return {};
     squares_.resize(samples);
     if (bake_.kind == TransferKind::unshadowed) {
@@ -56,7 +62,7 @@ class SurfaceMeter {
   }
 
   void measureUnshadowed() {
-    addPlaces(points_, places_);
+    points_ = withPlaces(traced_.points(), places_);
     progress_.begin("measuring the surface", static_cast<double>(places_.size()), "samples");
     parallel_.forBlocks(places_.size(), 64, [&](std::size_t begin, std::size_t end, int) {
       const auto count = static_cast<std::size_t>(baked_.coefficientsPerChannel());
@@ -73,10 +79,11 @@ class SurfaceMeter {
   }
 
   void measureTraced(const TruthRays& rays) {
-    const Senders senders(points_, baked_, bake_, parallel_, progress_);
-    addPlaces(points_, places_);
+    const Senders senders(traced_, baked_, bake_, parallel_, progress_);
+    points_ = withPlaces(traced_.points(), places_);
+    const Contacts contacts(points_, traced_.tree(), positionsFrom(points_, firstSample_), parallel_, progress_);
     const auto maxDistance = static_cast<float>(bake_.maxDistance * points_.frame.scale);
-    const RayScene scene(points_, maxDistance, parallel_, progress_);
+    const RayScene scene(points_, traced_.tree(), contacts, maxDistance);
     const int most = std::max(kMostTruthRays, bake_.rays);
     const DirectionSet directions(
         std::max(rays.least, bake_.rays > most / rays.perRay ? most : rays.perRay * bake_.rays), baked_.order);
@@ -105,12 +112,13 @@ class SurfaceMeter {
     progress_.end();
   }
 
-  LightingPoints points_;
+  TracedPoints& traced_;
+  LightingPoints points_;  // with a place for each sample
   const TransferSet& baked_;
   const BakeOptions& bake_;
   const Parallel& parallel_;
   Progress& progress_;
-  std::size_t firstSample_ = 0;
+  std::size_t firstSample_;
   std::vector<SurfacePlace> places_;
   std::vector<double> squares_;  // of each sample's relative error; where rays are traced, with noise of mean zero
   int raysOfSample_ = 0;
@@ -126,20 +134,28 @@ void validate(const SurfaceErrorOptions& options) {
   }
 }
 
-SurfaceError measureSurfaceError(LightingPoints points, const TransferSet& baked, const BakeOptions& bake,
+SurfaceError measureSurfaceError(TracedPoints& traced, const TransferSet& baked, const BakeOptions& bake,
                                  const SurfaceErrorOptions& options, const Parallel& parallel, Progress& progress) {
   validate(bake);
   validate(options);
   if (bake.kind != TransferKind::unshadowed && bake.rays == 0) {
     throw usageError("the surface error needs the number of rays that the bake took", "set BakeOptions::rays");
   }
+  const LightingPoints& points = traced.points();
   const bool hasColor = std::any_of(points.pointAlbedo.begin(), points.pointAlbedo.end(), isColored);
   if (baked.size() != points.size() || baked.order != bake.order || baked.channels != (hasColor ? 3 : 1)) {
     throw usageError("the transfer does not belong to these points and options", "give what bakePoints() returned");
   }
   const std::size_t faces = options.faces == 0 ? points.faces.size() : std::min(options.faces, points.faces.size());
-  SurfaceMeter meter(std::move(points), baked, bake, parallel, progress);
+  SurfaceMeter meter(traced, baked, bake, parallel, progress);
   return meter.run(faces, (options.samples + 1) / 2 * 2, options.rays);
+}
+
+SurfaceError measureSurfaceError(const LightingPoints& points, const TransferSet& baked, const BakeOptions& bake,
+                                 const SurfaceErrorOptions& options, const Parallel& parallel, Progress& progress) {
+  TracedPoints traced(points, parallel, progress);
+  traced.keepForMore(true);
+  return measureSurfaceError(traced, baked, bake, options, parallel, progress);
 }
 
 }  // namespace shbake

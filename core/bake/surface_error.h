@@ -13,6 +13,7 @@
 #include <cstddef>
 
 #include "bake/bake_options.h"
+#include "bake/traced_points.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "mesh/lighting_points.h"
@@ -49,10 +50,13 @@ void validate(const SurfaceErrorOptions& options);
 /// reflect to a sample is what was baked for them, interpolated; where reflections were summed to a count, what is
 /// baked again with one less. Faces without area or with black corners have no relative error and are left out: the
 /// result has no samples where all are. Deterministic: depends on `points`, `baked` and options alone.
-/// `points` are taken by value because the samples are added to them; move them in where they are not needed after.
 /// Throws a usage error for options out of range or a transfer that does not belong to the points; cancelled by
 /// `progress`.
-SurfaceError measureSurfaceError(LightingPoints points, const TransferSet& baked, const BakeOptions& bake,
+SurfaceError measureSurfaceError(TracedPoints& traced, const TransferSet& baked, const BakeOptions& bake,
+                                 const SurfaceErrorOptions& options, const Parallel& parallel, Progress& progress);
+
+/// The same for points that nobody else traces.
+SurfaceError measureSurfaceError(const LightingPoints& points, const TransferSet& baked, const BakeOptions& bake,
                                  const SurfaceErrorOptions& options, const Parallel& parallel, Progress& progress);
 
 }  // namespace shbake

@@ -52,9 +52,10 @@ std::size_t roundedToEven(double count) {
 
 class SurfaceFitter {
  public:
-  SurfaceFitter(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, const PointBake& baked,
+  SurfaceFitter(TracedPoints& traced, const std::vector<std::uint8_t>& wanted, const PointBake& baked,
                 const BakeOptions& bake, const SurfaceFitOptions& options, const Parallel& parallel, Progress& progress)
-      : points_(points),
+      : traced_(traced),
+        points_(traced.points()),
         wanted_(wanted),
         baked_(baked.transfer),
         bake_(bake),
@@ -69,8 +70,8 @@ class SurfaceFitter {
   FitReport run() {
     countFaces();
     if (measuredPoints_ == 0) return stop("no face has an area and reflects light");
-    const Senders senders(points_, baked_, bake_, parallel_, progress_);
-    PlaceTracer tracer(points_, baked_, senders.transfer(), bake_, parallel_, progress_);
+    const Senders senders(traced_, baked_, bake_, parallel_, progress_);
+    PlaceTracer tracer(traced_, baked_, senders.transfer(), bake_, parallel_, progress_);
     HeldOutSamples held =
         options_.kind == FitKind::automatic ? lookAround(tracer) : holdOut(tracer, kPilotSamples, rays_, kPilot);
     const SampledMean before = held.squaredError(baked_.coefficients);
@@ -239,6 +240,7 @@ class SurfaceFitter {
                                                        : "the samples do not show that it would help";
   }
 
+  TracedPoints& traced_;
   const LightingPoints& points_;
   const std::vector<std::uint8_t>& wanted_;
   const TransferSet& baked_;
@@ -274,7 +276,7 @@ void validate(const SurfaceFitOptions& o) {
   }
 }
 
-FitReport fitToSurface(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, PointBake& baked,
+FitReport fitToSurface(TracedPoints& traced, const std::vector<std::uint8_t>& wanted, PointBake& baked,
                        const BakeOptions& bake, const SurfaceFitOptions& options, const Parallel& parallel,
                        Progress& progress) {
   validate(bake);
@@ -286,15 +288,24 @@ FitReport fitToSurface(const LightingPoints& points, const std::vector<std::uint
     report.reason = "unshadowed transfer has a closed form, which is kept";
     return report;
   }
-  if (baked.transfer.size() != points.size() || (!wanted.empty() && wanted.size() != points.size())) {
+  const std::size_t count = traced.points().size();
+  if (baked.transfer.size() != count || (!wanted.empty() && wanted.size() != count)) {
     throw usageError("the transfer does not belong to these points", "give what bakePoints() returned");
   }
   BakeOptions done = bake;
   done.rays = baked.rays;
-  SurfaceFitter fitter(points, wanted, baked, done, options, parallel, progress);
+  SurfaceFitter fitter(traced, wanted, baked, done, options, parallel, progress);
   report = fitter.run();
   if (report.fittedPoints + report.smoothedPoints > 0) baked.transfer.coefficients = fitter.takeValues();
   return report;
+}
+
+FitReport fitToSurface(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, PointBake& baked,
+                       const BakeOptions& bake, const SurfaceFitOptions& options, const Parallel& parallel,
+                       Progress& progress) {
+  TracedPoints traced(points, parallel, progress);
+  traced.keepForMore(true);
+  return fitToSurface(traced, wanted, baked, bake, options, parallel, progress);
 }
 
 }  // namespace shbake

@@ -15,6 +15,7 @@
 
 #include "bake/baker.h"
 #include "bake/sampled_mean.h"
+#include "bake/traced_points.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "mesh/lighting_points.h"
@@ -75,6 +76,11 @@ struct FitReport {
 /// for each coefficient of the result, 600 a point, and for each sample in a batch of at most a million 150 and one row
 /// of the result, beside the ray scene; `bake.memory` changes nothing. Throws as bakePoints(), and leaves `baked` as it
 /// was then.
+FitReport fitToSurface(TracedPoints& traced, const std::vector<std::uint8_t>& wanted, PointBake& baked,
+                       const BakeOptions& bake, const SurfaceFitOptions& options, const Parallel& parallel,
+                       Progress& progress);
+
+/// The same for points that nobody else traces.
 FitReport fitToSurface(const LightingPoints& points, const std::vector<std::uint8_t>& wanted, PointBake& baked,
                        const BakeOptions& bake, const SurfaceFitOptions& options, const Parallel& parallel,
                        Progress& progress);

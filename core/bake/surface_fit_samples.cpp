@@ -4,17 +4,19 @@
 #include <cmath>
 
 #include "bake/direction_set.h"
+#include "bake/flush_denormals.h"
 #include "bake/ray_scene.h"
 #include "bake/surface_tracer.h"
 #include "sh/irradiance.h"
 
 namespace shbake {
 
-PlaceTracer::PlaceTracer(const LightingPoints& points, const TransferSet& baked, const TransferSet* senders,
+PlaceTracer::PlaceTracer(TracedPoints& traced, const TransferSet& baked, const TransferSet* senders,
                          const BakeOptions& options, const Parallel& parallel, Progress& progress)
-    : points_(points),
-      ownPoints_(points.size()),
-      ownPositions_(points.positions.size()),
+    : traced_(traced),
+      points_(withPlaces(traced.points(), {})),
+      ownPoints_(points_.size()),
+      ownPositions_(points_.positions.size()),
       order_(baked.order),
       channels_(baked.channels),
       senders_(senders),
@@ -33,7 +35,9 @@ void PlaceTracer::forget() {
 PlaceTransfers PlaceTracer::trace(std::span<const SurfacePlace> places, int rays,
                                   std::span<const std::uint64_t> seeds) {
   addPlaces(points_, places);
-  const RayScene scene(points_, static_cast<float>(options_.maxDistance * points_.frame.scale), parallel_, progress_);
+  const Contacts contacts(points_, traced_.tree(), positionsFrom(points_, ownPoints_), parallel_, progress_);
+  const auto maxDistance = static_cast<float>(options_.maxDistance * points_.frame.scale);
+  const RayScene scene(points_, traced_.tree(), contacts, maxDistance);
   const DirectionSet directions(rays, order_);
   std::vector<std::vector<SurfaceTracer>> tracers(seeds.size());
   for (std::size_t i = 0; i < seeds.size(); ++i) {

@@ -7,6 +7,7 @@
 
 #include "bake/bake_options.h"
 #include "bake/surface_places.h"
+#include "bake/traced_points.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "mesh/lighting_points.h"
@@ -25,11 +26,11 @@ class PlaceTracer {
  public:
   /// `senders` is what faces reflect to the places; null: nothing. `options.rays` is not looked at. References must
   /// outlive the object.
-  PlaceTracer(const LightingPoints& points, const TransferSet& baked, const TransferSet* senders,
-              const BakeOptions& options, const Parallel& parallel, Progress& progress);
+  PlaceTracer(TracedPoints& traced, const TransferSet& baked, const TransferSet* senders, const BakeOptions& options,
+              const Parallel& parallel, Progress& progress);
 
   /// Traces each place by as many sets of `rays` directions as there are seeds. No place may be on a black face.
-  /// Builds a ray scene that knows the places; throws as bakePoints(). Progress counts rays.
+  /// Throws as bakePoints(). Progress counts rays.
   PlaceTransfers trace(std::span<const SurfacePlace> places, int rays, std::span<const std::uint64_t> seeds);
 
   /// The rays traced so far.
@@ -38,6 +39,7 @@ class PlaceTracer {
  private:
   void forget();
 
+  TracedPoints& traced_;
   LightingPoints points_;
   std::size_t ownPoints_, ownPositions_;
   int order_, channels_;

@@ -118,6 +118,29 @@ void addPlaces(LightingPoints& points, std::span<const SurfacePlace> places) {
   points.positions.reserve(points.positions.size() + 1);
 }
 
+LightingPoints withPlaces(const LightingPoints& points, std::span<const SurfacePlace> places) {
+  LightingPoints more;
+  more.frame = points.frame;
+  more.faces = points.faces;
+  more.facePoints = points.facePoints;
+  more.positionFaces.items = points.positionFaces.items;
+  const auto copy = [&](auto& to, const auto& from) {
+    to.reserve(from.size() + places.size() + 1);  // one position more, as addPlaces() leaves
+    to.assign(from.begin(), from.end());
+  };
+  copy(more.positions, points.positions);
+  copy(more.positionFaces.starts, points.positionFaces.starts);
+  copy(more.pointPosition, points.pointPosition);
+  copy(more.pointNormal, points.pointNormal);
+  copy(more.pointAlbedo, points.pointAlbedo);
+  addPlaces(more, places);
+  return more;
+}
+
+std::vector<std::uint32_t> positionsFrom(const LightingPoints& points, std::size_t first) {
+  return {points.pointPosition.begin() + static_cast<std::ptrdiff_t>(first), points.pointPosition.end()};
+}
+
 void addInterpolated(const TransferSet& set, const Triangle& corners, const std::array<double, 3>& weights,
                      double weight, std::span<double> sum) {
   for (std::size_t k = 0; k < 3; ++k) {

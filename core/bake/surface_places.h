@@ -36,8 +36,16 @@ std::vector<SurfacePlace> drawPlaces(const LightingPoints& points, std::span<con
                                      std::uint64_t seed, Progress& progress);
 
 /// Adds a lighting point for each place, with position, normal and albedo interpolated, in their order behind the
-/// others. No face has it as a corner: the fan test finds it in contact with its own.
+/// others. No face has it as a corner: the fan test finds it in contact with its own. Positions may move: whoever
+/// traces them in place (FaceTree) must not be left behind.
 void addPlaces(LightingPoints& points, std::span<const SurfacePlace> places);
+
+/// A copy of the points with places added, for whoever traces rays: without what is written to files. The faces of a
+/// tree (FaceTree) of `points` are those of the copy too.
+LightingPoints withPlaces(const LightingPoints& points, std::span<const SurfacePlace> places);
+
+/// The positions of the points from number `first` on.
+std::vector<std::uint32_t> positionsFrom(const LightingPoints& points, std::size_t first);
 
 /// Adds `weight` times the transfer at a place with these weights of the corners to `sum`, which has set.stride()
 /// values.

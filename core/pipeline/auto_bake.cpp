@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -13,7 +14,7 @@
 #include "mesh/convexity.h"
 #include "pipeline/auto_refine.h"
 #include "pipeline/light_order.h"
-#include "pipeline/scene_points.h"
+#include "pipeline/traced_scene.h"
 
 namespace shbake {
 namespace {
@@ -101,21 +102,30 @@ class AutoBaker {
   /// What the scene as a whole decides: the kind of transfer, and the order under the light that was named.
   void chooseForScene() {
     if (choose_.transfer) chooseTransfer(scene().points);
-    if (choose_.light) chooseBands(scene().points);
+    if (choose_.light) chooseBands();
+  }
+
+  std::unique_ptr<TracedScene> makeScene(const Mesh& mesh) {
+    auto scene = std::make_unique<TracedScene>(
+        makeScenePoints(mesh, blockers_, options_.points, options_.albedo, progress_), parallel_, progress_);
+    scene->traced.keepForMore(true);
+    return scene;
   }
 
   /// The lighting points of the mesh as it was given.
-  const ScenePoints& scene() {
-    if (!scene_) scene_ = makeScenePoints(mesh_, blockers_, options_.points, options_.albedo, progress_);
+  TracedScene& scene() {
+    if (!scene_) scene_ = makeScene(mesh_);
     return *scene_;
   }
-  /// The same to the last one who needs it: a large mesh has it in memory once.
-  ScenePoints takeScene() {
-    scene();
-    ScenePoints taken = std::move(*scene_);
+
+  /// Those of the mesh that is baked.
+  TracedScene& sceneToBake() {
+    if (isAsGiven()) return scene();
     scene_.reset();
-    return taken;
+    if (!refined_->scene) refined_->scene = makeScene(refined_->refined.mesh);
+    return *refined_->scene;
   }
+  const Mesh& meshToBake() const { return isAsGiven() ? mesh_ : refined_->refined.mesh; }
 
   void chooseTransfer(const LightingPoints& points) {
     BakeOptions& bake = options_.bake;
@@ -134,8 +144,9 @@ class AutoBaker {
     tell("transfer", "interreflected", "the mesh is not convex and reflects");
   }
 
-  void chooseBands(const LightingPoints& points) {
-    const LightOrder chosen = chooseOrder(points, {}, options_.bake, *choose_.light, tolerance(), parallel_, progress_);
+  void chooseBands() {
+    const LightOrder chosen =
+        chooseOrder(scene().traced, {}, options_.bake, *choose_.light, tolerance(), parallel_, progress_);
     options_.bake.order = chosen.order;
     const auto left = [&](int order) { return percent(chosen.left[static_cast<std::size_t>(order - 1)]); };
     std::string reason = "the bands above change pictures under this light by " + left(chosen.order);
@@ -183,12 +194,10 @@ class AutoBaker {
   void bakeOnce(double aim) {
     refine(aim);
     if (choose_.tolerance) chooseNoise(aim);
-    if (isAsGiven()) {
-      result_.baked = bakeMesh(mesh_, blockers_.size(), takeScene(), options_, parallel_, progress_);
-    } else {
-      scene_.reset();
-      result_.baked = bakeMesh(refined_->refined.mesh, blockers_, options_, parallel_, progress_);
-    }
+    TracedScene& scene = sceneToBake();
+    // A bake that misses its tolerance is followed by another.
+    scene.traced.keepForMore(choose_.tolerance && openRays_);
+    result_.baked = bakeMesh(meshToBake(), blockers_.size(), scene, options_, parallel_, progress_);
   }
 
   bool isAsGiven() const { return !refined_ || refined_->refined.mesh.positions.size() == mesh_.positions.size(); }
@@ -206,6 +215,7 @@ class AutoBaker {
     refine.target = std::clamp(kInterpolationShare * aim / left().missed, 1e-4, 1.0);
     refine.flatDegrees = refinement.flatDegrees;
     refine.maxVertices = refinement.maxVertices;
+    if (refined_) refined_->scene.reset();
     refined_ = refineWhereLightChanges(mesh_, blockers_, scene(), options_.points, options_.albedo, options_.bake,
                                        refine, parallel_, progress_);
   }
@@ -223,20 +233,14 @@ class AutoBaker {
   /// What interpolation misses on the mesh that is baked, but for reflections, which change more slowly.
   double glance() {
     if (glanced_) return *glanced_;
-    if (isAsGiven()) return glanceAt(scene().points, mesh_.triangles.size());
-    const Mesh& mesh = refined_->refined.mesh;
-    return glanceAt(makeScenePoints(mesh, blockers_, options_.points, options_.albedo, progress_).points,
-                    mesh.triangles.size());
-  }
-
-  double glanceAt(const LightingPoints& points, std::size_t faces) {
+    TracedPoints& traced = sceneToBake().traced;
     BakeOptions probe = options_.bake;
     probe.kind = TransferKind::shadowed;
     probe.rays = kGlanceRays;
     probe.seed = hashBits(probe.seed, kGlance);
-    const std::vector<double> areas = areaWeights(points, faces);
-    const std::vector<SurfacePlace> places = drawPlaces(points, areas, kGlancePlaces, probe.seed, progress_);
-    const std::vector<double> squares = interpolationSquares(points, places, probe, parallel_, progress_);
+    const std::vector<double> areas = areaWeights(traced.points(), meshToBake().triangles.size());
+    const std::vector<SurfacePlace> places = drawPlaces(traced.points(), areas, kGlancePlaces, probe.seed, progress_);
+    const std::vector<double> squares = interpolationSquares(traced, places, probe, parallel_, progress_);
     const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
     glanced_ = std::sqrt(std::max(0.0, sum) / static_cast<double>(std::max<std::size_t>(1, squares.size())));
     return *glanced_;
@@ -337,7 +341,7 @@ class AutoBaker {
   const Parallel& parallel_;
   Progress& progress_;
   bool openRays_;
-  std::optional<ScenePoints> scene_;  // see scene()
+  std::unique_ptr<TracedScene> scene_;  // see scene()
   std::optional<AutoRefinement> refined_;
   std::optional<double> glanced_;  // see glance()
   std::optional<double> missed_;   // what a bake with too few rays left beside their noise

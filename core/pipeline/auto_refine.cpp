@@ -12,7 +12,6 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "pipeline/length_field.h"
-#include "pipeline/scene_points.h"
 
 namespace shbake {
 namespace {
@@ -105,7 +104,7 @@ LengthField fieldAround(const Mesh& mesh) {
 
 class AutoRefiner {
  public:
-  AutoRefiner(const Mesh& mesh, const std::vector<Mesh>& blockers, const ScenePoints& scene,
+  AutoRefiner(const Mesh& mesh, const std::vector<Mesh>& blockers, TracedScene& scene,
               const LightingPointOptions& points, const AlbedoOptions& albedo, const BakeOptions& bake,
               const AutoRefineOptions& options, const Parallel& parallel, Progress& progress)
       : mesh_(mesh),
@@ -187,7 +186,8 @@ class AutoRefiner {
     // Transfer is between nothing and all: no place misses more than all of it.
     const double most = kGlanceShare * options_.target * options_.target;
     if (flat <= most * area) return false;
-    std::vector<double> areas = areaWeights(scene_.points, mesh_.triangles.size());
+    const LightingPoints& points = scene_.points;
+    std::vector<double> areas = areaWeights(points, mesh_.triangles.size());
     for (std::uint32_t f = 0; f < areas.size(); ++f) {
       if (parts_.regions.ofFace[f] == FlatRegions::kNone) areas[f] = 0;
     }
@@ -195,8 +195,8 @@ class AutoRefiner {
     BakeOptions direct = probe_;
     direct.kind = TransferKind::shadowed;
     const std::vector<SurfacePlace> places =
-        drawPlaces(scene_.points, areas, kGlancePlaces, hashBits(probe_.seed, kGlance), progress_);
-    const std::vector<double> squares = interpolationSquares(scene_.points, places, direct, parallel_, progress_);
+        drawPlaces(points, areas, kGlancePlaces, hashBits(probe_.seed, kGlance), progress_);
+    const std::vector<double> squares = interpolationSquares(scene_.traced, places, direct, parallel_, progress_);
     const double mean = std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(squares.size());
     return flat / area * mean > most;
   }
@@ -224,22 +224,29 @@ class AutoRefiner {
     return wanted;
   }
 
+  TracedScene& sceneOfRefined() {
+    result_.scene.reset();
+    result_.scene = std::make_unique<TracedScene>(
+        makeScenePoints(result_.refined.mesh, blockers_, pointOptions_, albedo_, progress_), parallel_, progress_);
+    result_.scene->traced.keepForMore(true);
+    return *result_.scene;
+  }
+
   /// Measures the error of interpolation on the present mesh: its flat and curved part, and where the flat one is.
   void probe() {
     const Mesh& mesh = result_.refined.mesh;
-    ScenePoints scene =
-        result_.rounds == 0 ? scene_ : makeScenePoints(mesh, blockers_, pointOptions_, albedo_, progress_);
-    const std::vector<double> areas = areaWeights(scene.points, mesh.triangles.size());
+    TracedScene& scene = result_.rounds == 0 ? scene_ : sceneOfRefined();
+    const LightingPoints& points = scene.points;
+    const std::vector<double> areas = areaWeights(points, mesh.triangles.size());
     const std::vector<double> wanted = placesWanted(areas);
     const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
     const double count = std::accumulate(wanted.begin(), wanted.end(), 0.0);
     const std::size_t even = 2 * static_cast<std::size_t>(std::ceil(count / 2));
     probe_.seed = hashBits(probe_.seed, kNextRound);
-    const std::vector<SurfacePlace> places = drawPlaces(scene.points, wanted, even, probe_.seed, progress_);
+    const std::vector<SurfacePlace> places = drawPlaces(points, wanted, even, probe_.seed, progress_);
     std::vector<Vec3d> positions;
-    for (const SurfacePlace& place : places) positions.push_back(placeOn(scene.points, place));
-    const std::vector<double> squares =
-        interpolationSquares(std::move(scene.points), places, probe_, parallel_, progress_);
+    for (const SurfacePlace& place : places) positions.push_back(placeOn(points, place));
+    const std::vector<double> squares = interpolationSquares(scene.traced, places, probe_, parallel_, progress_);
 
     flat_ = curved_ = flatShare_ = 0;
     for (std::uint32_t f = 0; f < areas.size(); ++f) {
@@ -283,6 +290,8 @@ class AutoRefiner {
       field_.want(cell);
       finest_ = std::max(finest_, cell.level);
     }
+    // What has been judged is of no more use, unless nothing finer can be had: the bake builds it again then.
+    (result_.scene ? *result_.scene : scene_).traced.free();
     std::optional<RefinedMesh> next = refineAsWanted();
     if (!next) {
       result_.end = RefineEnd::budget;
@@ -308,7 +317,7 @@ class AutoRefiner {
 
   const Mesh& mesh_;
   const std::vector<Mesh>& blockers_;
-  const ScenePoints& scene_;
+  TracedScene& scene_;
   const LightingPointOptions& pointOptions_;
   const AlbedoOptions& albedo_;
   BakeOptions probe_;
@@ -326,7 +335,7 @@ class AutoRefiner {
 
 }  // namespace
 
-AutoRefinement refineWhereLightChanges(const Mesh& mesh, const std::vector<Mesh>& blockers, const ScenePoints& scene,
+AutoRefinement refineWhereLightChanges(const Mesh& mesh, const std::vector<Mesh>& blockers, TracedScene& scene,
                                        const LightingPointOptions& points, const AlbedoOptions& albedo,
                                        const BakeOptions& bake, const AutoRefineOptions& options,
                                        const Parallel& parallel, Progress& progress) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@
 #include "mesh/lighting_points.h"
 #include "mesh/refine.h"
 #include "pipeline/albedo.h"
-#include "pipeline/scene_points.h"
+#include "pipeline/traced_scene.h"
 
 namespace shbake {
 
@@ -43,17 +44,21 @@ struct AutoRefinement {
   double before = 0;    ///< error of interpolation of the mesh as it was: an estimate from samples
   double after = 0;     ///< the same of the refined mesh
   double shortest = 0;  ///< the shortest edges that were asked for, in file units; 0: none
-  double curved = 0;    ///< the part of `after` that curved faces have: after^2 = flat^2 + curved^2
+  /// The lighting points of the refined mesh, kept for more, for as long as `parallel` and `progress` live; null where
+  /// the mesh is as it was.
+  std::unique_ptr<TracedScene> scene;
+  double curved = 0;  ///< the part of `after` that curved faces have: after^2 = flat^2 + curved^2
 };
 
 /// Divides flat regions of `mesh` until interpolation between its vertices errs by no more than the target, as far as
 /// flat regions can mend it. Each round draws places on the surface, measures there what interpolation misses
 /// (bake/interpolation_error.h), and asks for finer edges around the places that miss most, as few as lower the error
 /// enough (Doerfler 1996, "A convergent adaptive algorithm for Poisson's equation": the smallest set with a fixed share
-/// of the error). `scene` is what makeScenePoints() made of mesh and blockers; `bake` has the options of the bake to
-/// come, but for its number of rays. Throws as refineFlatRegions() and bakePoints(), and a usage error when the target
+/// of the error). `scene` has what makeScenePoints() made of mesh and blockers; what it is traced in serves the bake to
+/// come where it is kept for more and nothing is refined. `bake` has the options of that bake, but for its number of
+/// rays. Throws as refineFlatRegions() and bakePoints(), and a usage error when the target
 /// is out of range.
-AutoRefinement refineWhereLightChanges(const Mesh& mesh, const std::vector<Mesh>& blockers, const ScenePoints& scene,
+AutoRefinement refineWhereLightChanges(const Mesh& mesh, const std::vector<Mesh>& blockers, TracedScene& scene,
                                        const LightingPointOptions& points, const AlbedoOptions& albedo,
                                        const BakeOptions& bake, const AutoRefineOptions& options,
                                        const Parallel& parallel, Progress& progress);

@@ -154,16 +154,17 @@ void validate(const Mesh& mesh, const BakeMeshOptions& options) {
 BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshOptions& options,
                    const Parallel& parallel, Progress& progress) {
   validate(mesh, options);
-  ScenePoints scene = makeScenePoints(mesh, blockers, options.points, options.albedo, progress);
-  return bakeMesh(std::move(mesh), blockers.size(), std::move(scene), options, parallel, progress);
+  TracedScene scene(makeScenePoints(mesh, blockers, options.points, options.albedo, progress), parallel, progress);
+  return bakeMesh(std::move(mesh), blockers.size(), scene, options, parallel, progress);
 }
 
-BakedMesh bakeMesh(Mesh mesh, std::size_t blockers, ScenePoints scene, const BakeMeshOptions& options,
+BakedMesh bakeMesh(Mesh mesh, std::size_t blockers, TracedScene& scene, const BakeMeshOptions& options,
                    const Parallel& parallel, Progress& progress) {
   validate(mesh, options);
   BakedMesh result;
   const std::size_t vertices = mesh.positions.size();
   LightingPoints& points = scene.points;
+  TracedPoints& traced = scene.traced;
   result.albedoNote = scene.albedo.note;
   result.warnings = mesh.warnings;
   result.warnings.insert(result.warnings.end(), scene.albedo.warnings.begin(), scene.albedo.warnings.end());
@@ -171,12 +172,16 @@ BakedMesh bakeMesh(Mesh mesh, std::size_t blockers, ScenePoints scene, const Bak
   // The mesh's vertices in their order, then those that are split off; two copies of the faces are not needed.
   const std::vector<std::uint32_t> outputs = ownOutputs(points, vertices);
   splitMesh(mesh, points, outputs);
-  points.outputFaces = std::vector<Triangle>();  // {} would keep the memory
+  const bool isLast = !traced.keepsForMore();
+  if (isLast) points.outputFaces = std::vector<Triangle>();  // {} would keep the memory
 
   // Transfer of every lighting point.
   const std::vector<std::uint8_t> wanted = wantedPoints(points, outputs);
-  PointBake baked = bakePoints(points, wanted, options.bake, parallel, progress);
-  FitReport fit = fitToSurface(points, wanted, baked, options.bake, options.fit, parallel, progress);
+  const bool isMeasured = options.surfaceSamples > 0;
+  traced.keepForMore(!isLast || isMeasured || options.fit.kind != FitKind::vertex);
+  PointBake baked = bakePoints(traced, wanted, options.bake, parallel, progress);
+  FitReport fit = fitToSurface(traced, wanted, baked, options.bake, options.fit, parallel, progress);
+  if (isLast && !isMeasured) traced.free();
 
   // Back to the mesh.
   result.transfer = expand(baked.transfer, points, outputs);
@@ -197,14 +202,15 @@ BakedMesh bakeMesh(Mesh mesh, std::size_t blockers, ScenePoints scene, const Bak
   result.mesh = std::move(mesh);
 
   // What a viewer sees between the vertices.
-  if (options.surfaceSamples > 0) {
+  if (isMeasured) {
     BakeOptions done = options.bake;
     done.rays = baked.rays;
     const SurfaceErrorOptions surface{options.surfaceSamples, result.mesh.triangles.size(), options.surfaceRays};
-    result.facts.surface = measureSurfaceError(std::move(points), baked.transfer, done, surface, parallel, progress);
+    result.facts.surface = measureSurfaceError(traced, baked.transfer, done, surface, parallel, progress);
     if (result.facts.surface.samples == 0) {
       result.warnings.push_back("the surface error was not measured: no face has an area and reflects light");
     }
+    if (isLast) traced.free();
   }
   return result;
 }

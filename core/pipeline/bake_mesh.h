@@ -14,7 +14,7 @@
 #include "mesh/lighting_points.h"
 #include "mesh/mesh.h"
 #include "pipeline/albedo.h"
-#include "pipeline/scene_points.h"
+#include "pipeline/traced_scene.h"
 #include "transfer/transfer_set.h"
 
 namespace shbake {
@@ -46,9 +46,10 @@ struct BakedMesh {
 BakedMesh bakeMesh(Mesh mesh, const std::vector<Mesh>& blockers, const BakeMeshOptions& options,
                    const Parallel& parallel, Progress& progress);
 
-/// The same where the lighting points are there: `scene` is what makeScenePoints() made of `mesh` and so many blockers,
-/// with the same options.
-BakedMesh bakeMesh(Mesh mesh, std::size_t blockers, ScenePoints scene, const BakeMeshOptions& options,
+/// The same where the lighting points are there: `scene` has what makeScenePoints() made of `mesh` and so many
+/// blockers, with the same options. Where it is not kept for more (TracedPoints::keepForMore()), what has served is
+/// freed on the way, and the scene is of no use afterwards.
+BakedMesh bakeMesh(Mesh mesh, std::size_t blockers, TracedScene& scene, const BakeMeshOptions& options,
                    const Parallel& parallel, Progress& progress);
 
 /// Throws a usage error for options out of range, a work error for a mesh without faces.

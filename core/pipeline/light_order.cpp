@@ -24,9 +24,9 @@ std::array<double, LightOrder::kMost> bandSquares(std::span<const float> transfe
 
 }  // namespace
 
-LightOrder chooseOrder(const LightingPoints& points, const std::vector<std::uint8_t>& wanted,
-                       const BakeOptions& options, const Light& light, double tolerance, const Parallel& parallel,
-                       Progress& progress) {
+LightOrder chooseOrder(TracedPoints& traced, const std::vector<std::uint8_t>& wanted, const BakeOptions& options,
+                       const Light& light, double tolerance, const Parallel& parallel, Progress& progress) {
+  const LightingPoints& points = traced.points();
   std::vector<std::uint8_t> pilot(points.size(), 0);
   const std::vector<std::uint32_t> chosen = pilotPoints(points, wanted);
   for (const std::uint32_t p : chosen) pilot[p] = 1;
@@ -34,7 +34,7 @@ LightOrder chooseOrder(const LightingPoints& points, const std::vector<std::uint
   direct.order = LightOrder::kMost;
   direct.rays = kRays;
   if (direct.kind == TransferKind::interreflected) direct.kind = TransferKind::shadowed;
-  const TransferSet baked = bakePoints(points, pilot, direct, parallel, progress).transfer;
+  const TransferSet baked = bakePoints(traced, pilot, direct, parallel, progress).transfer;
 
   const std::vector<Vec3d> lightBands = bandEnergies(withOrder(light, LightOrder::kMost));
   const std::vector<double> areas = pointAreas(points);

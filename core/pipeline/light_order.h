@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "bake/bake_options.h"
+#include "bake/traced_points.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "light/light.h"
-#include "mesh/lighting_points.h"
 
 namespace shbake {
 
@@ -26,8 +26,7 @@ struct LightOrder {
 /// hundred of the wanted points (all where `wanted` is empty), without reflections, which blur: their share in higher
 /// bands is smaller. Turned in all ways, band l of the light meets band l of the transfer with a mean square of
 /// |L_l|^2 |t_l|^2 / (2l + 1) (maths.md (32)). `light` should have kMost bands or more; a black one gives order 1.
-LightOrder chooseOrder(const LightingPoints& points, const std::vector<std::uint8_t>& wanted,
-                       const BakeOptions& options, const Light& light, double tolerance, const Parallel& parallel,
-                       Progress& progress);
+LightOrder chooseOrder(TracedPoints& traced, const std::vector<std::uint8_t>& wanted, const BakeOptions& options,
+                       const Light& light, double tolerance, const Parallel& parallel, Progress& progress);
 
 }  // namespace shbake

@@ -24,7 +24,8 @@ std::vector<double> squaresOf(const LightingPoints& points, const std::vector<Su
                               const BakeOptions& options, int threads = 1) {
   const Parallel parallel(threads);
   Progress progress;
-  return interpolationSquares(points, places, options, parallel, progress);
+  TracedPoints traced(points, parallel, progress);
+  return interpolationSquares(traced, places, options, parallel, progress);
 }
 
 /// Two unit squares that meet at right angles in the y axis and face each other, n x n cells each.

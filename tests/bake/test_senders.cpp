@@ -20,14 +20,15 @@ TEST_CASE("places receive as many reflections as vertices do", "[senders]") {
   const TransferSet once = bake(1), twice = bake(2);
   REQUIRE(once.coefficients != twice.coefficients);
   options.bounces = 2;
-  const Senders counted(points, twice, options, parallel, progress);
+  TracedPoints traced(points, parallel, progress);
+  const Senders counted(traced, twice, options, parallel, progress);
   REQUIRE(counted.transfer() != nullptr);
   CHECK(counted.transfer()->coefficients == once.coefficients);
 
   // The sum of all reflections sends itself.
   const TransferSet all = bake(BakeOptions::kBouncesAuto);
-  CHECK(Senders(points, all, options, parallel, progress).transfer() == &all);
+  CHECK(Senders(traced, all, options, parallel, progress).transfer() == &all);
   options.bounces = 0;
-  CHECK(Senders(points, all, options, parallel, progress).transfer() == nullptr);
-  CHECK(Senders(points, all, optionsOf(TransferKind::shadowed, 2, 64), parallel, progress).transfer() == nullptr);
+  CHECK(Senders(traced, all, options, parallel, progress).transfer() == nullptr);
+  CHECK(Senders(traced, all, optionsOf(TransferKind::shadowed, 2, 64), parallel, progress).transfer() == nullptr);
 }

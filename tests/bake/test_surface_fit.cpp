@@ -308,11 +308,16 @@ TEST_CASE("a fit counts, stops, and leaves the bake as it was then", "[surface_f
   const BakeOptions bake = optionsOf(TransferKind::shadowed, 2, 64);
   const PointBake baked = bakeAll(points, bake);
   const double faces = double(points.faces.size());
-  const std::vector<StageLimit> scene{{"placing samples", faces}, {"twin faces", faces}, {"building", 1}};
-  std::vector<StageLimit> limits = scene;
-  limits.insert(limits.end(), {{"searching contacts", 4096}, {"tracing samples", 16 * 2 * 32}});
-  limits.insert(limits.end(), scene.begin(), scene.end());
-  limits.insert(limits.end(), {{"searching contacts", 4096}, {"tracing samples", 16 * 32}, {"fitting", 4}});
+  // One tree serves the places that judge and those that are fitted to.
+  const std::vector<StageLimit> limits{{"placing samples", faces},
+                                       {"twin faces", faces},
+                                       {"building", 1},
+                                       {"searching contacts", 4096},
+                                       {"tracing samples", 16 * 2 * 32},
+                                       {"placing samples", faces},
+                                       {"searching contacts", 4096},
+                                       {"tracing samples", 16 * 32},
+                                       {"fitting", 4}};
   checkStopping(
       [&](Progress& progress) {
         const Parallel parallel(1);

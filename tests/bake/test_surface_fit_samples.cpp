@@ -17,7 +17,8 @@ TEST_CASE("places of a floor have its open transfer times the albedo of each cha
   const TransferSet baked = bakeAll(points, options).transfer;
   const Parallel parallel(1);
   Progress progress;
-  PlaceTracer tracer(points, baked, nullptr, options, parallel, progress);
+  TracedPoints shared(points, parallel, progress);
+  PlaceTracer tracer(shared, baked, nullptr, options, parallel, progress);
   const std::vector<SurfacePlace> places =
       drawPlaces(points, areaWeights(points, points.faces.size()), 10, 1, progress);
   const PlaceTransfers traced = tracer.trace(places, 32, std::array<std::uint64_t, 2>{1, 2});
@@ -47,8 +48,10 @@ TEST_CASE("a tracer repeats itself and tells its seeds apart", "[surface_fit]") 
   };
   Progress progress;
   const Parallel one(1), two(2);
-  PlaceTracer alone(points, baked, &baked, options, one, progress), team(points, baked, &baked, options, two, progress);
-  PlaceTracer skyOnly(points, baked, nullptr, options, one, progress);
+  TracedPoints shared(points, one, progress), sharedByTwo(points, two, progress);
+  PlaceTracer alone(shared, baked, &baked, options, one, progress);
+  PlaceTracer team(sharedByTwo, baked, &baked, options, two, progress);
+  PlaceTracer skyOnly(shared, baked, nullptr, options, one, progress);
   const std::vector<float> first = traceWith(alone, 1);
   CHECK(sameBits(first, traceWith(alone, 1)));
   CHECK(sameBits(first, traceWith(team, 1)));

@@ -1,6 +1,7 @@
 // Bakes to a tolerance: it is met or said why not, and nothing is done that the scene does not need.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <string>
 
 #include "bake/surface_error.h"
 #include "base/error.h"
@@ -60,10 +61,39 @@ SurfaceError judge(const AutoBake& baked) {
     if (p == LightingPoints::kNone) continue;
     std::copy_n(&set.coefficients[v * set.stride()], set.stride(), &ofPoints.coefficients[p * set.stride()]);
   }
-  return measureSurfaceError(std::move(points), ofPoints, options, {8192, 0}, parallel, progress);
+  return measureSurfaceError(points, ofPoints, options, {8192, 0}, parallel, progress);
 }
 
 }  // namespace
+
+TEST_CASE("all that looks at a mesh as it is shares one tree", "[auto_bake]") {
+  const auto treesOf = [](const Mesh& mesh, const AutoBakeOptions& choose, const BakeMeshOptions& options) {
+    int trees = 0;
+    std::string last;
+    Progress progress([&](const ProgressState& state) {
+      trees += state.stage == "building" && last != "building" ? 1 : 0;
+      last = state.stage;
+      return true;
+    });
+    autoBake(mesh, {}, options, choose, Parallel(1), progress);
+    return trees;
+  };
+  BakeMeshOptions options;
+  options.bake.order = 2;
+  options.bake.rays = 32;
+  CHECK(treesOf(shapes::chessPiece(1), {}, options) == 1);
+  options.fit.kind = FitKind::surface;
+  options.surfaceSamples = 64;
+  CHECK(treesOf(shapes::chessPiece(1), {}, options) == 1);
+  // A probe with bakes of its own, and the bake of the same mesh.
+  AutoBakeOptions refined;
+  refined.refinement.kind = RefinementOptions::Kind::automatic;
+  CHECK(treesOf(shapes::box({-1, -1, 0}, {1, 1, 2}), refined, options) == 1);
+  // Glance, pilot, bake, fit and judge.
+  options.bake.rays = 0;
+  options.fit.kind = FitKind::automatic;
+  CHECK(treesOf(shapes::inwardSphere(2), toTolerance(0.2), options) == 1);
+}
 
 TEST_CASE("a tolerance is met by the surface, as other samples judge it", "[auto_bake]") {
   for (const FitKind fit : {FitKind::vertex, FitKind::automatic}) {

@@ -26,7 +26,7 @@ AutoRefinement refine(const Mesh& mesh, double target, const BakeOptions& bake =
   AutoRefineOptions options;
   options.target = target;
   options.maxVertices = maxVertices;
-  const ScenePoints scene = makeScenePoints(mesh, {}, {}, {}, progress);
+  TracedScene scene(makeScenePoints(mesh, {}, {}, {}, progress), parallel, progress);
   return refineWhereLightChanges(mesh, {}, scene, {}, {}, bake, options, parallel, progress);
 }
 
@@ -208,9 +208,10 @@ TEST_CASE("refinement does not depend on threads, and stops when asked", "[auto_
   AutoRefineOptions options;
   options.target = 0.05;
   Progress unwatched;
-  const ScenePoints scene = makeScenePoints(mesh, {}, {}, {}, unwatched);
+  ScenePoints points = makeScenePoints(mesh, {}, {}, {}, unwatched);
   int reports = 0;
   Progress progress([&](const ProgressState&) { return ++reports < 20; }, Progress::Duration(0));
+  TracedScene scene(std::move(points), parallel, progress);
   try {
     refineWhereLightChanges(mesh, {}, scene, {}, {}, shadowed(), options, parallel, progress);
     FAIL("it was not stopped");

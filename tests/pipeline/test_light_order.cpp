@@ -23,7 +23,8 @@ LightOrder choose(const LightingPoints& points, TransferKind kind, const Light& 
   options.kind = kind;
   const Parallel parallel(threads);
   Progress progress;
-  return chooseOrder(points, {}, options, light, tolerance, parallel, progress);
+  TracedPoints traced(points, parallel, progress);
+  return chooseOrder(traced, {}, options, light, tolerance, parallel, progress);
 }
 
 /// A light with |L_l|^2 = `energies[l]` in each channel.
