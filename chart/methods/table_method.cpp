@@ -33,7 +33,7 @@ Estimate estimateBy(const TestBed& bed, const Task& task, Progress& progress, co
     // The turn of PointTracer::spin().
     const double spin = 2 * std::numbers::pi * hashUnit(task.seed, p);
     look(p, set, spin, std::span(sky));
-    direct[set].evaluate(sky, Vec3d(points.pointNormal[p]), spin, {&result.transfer[i * count], count});
+    direct[set].evaluate({sky, Vec3d(points.pointNormal[p]), spin}, {&result.transfer[i * count], count});
   });
   result.cpu = cpu * static_cast<double>(points.size()) / static_cast<double>(task.chosen.size());
   result.rays = sets[0].size();

@@ -23,7 +23,7 @@ std::vector<float> directTransfer(const LightingPoints& points, const RayScene& 
     std::vector<std::uint16_t> sky(static_cast<std::size_t>(directions.groups()));
     for (std::size_t i = begin; i < end; ++i) {
       tracers[w].look(chosen[i], sky);
-      direct[w].evaluate(sky, Vec3d(points.pointNormal[chosen[i]]), tracers[w].spin(chosen[i]),
+      direct[w].evaluate({sky, Vec3d(points.pointNormal[chosen[i]]), tracers[w].spin(chosen[i])},
                          {&transfer[i * count], count});
       progress.advance(directions.size());
     }

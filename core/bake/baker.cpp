@@ -1,7 +1,9 @@
 #include "bake/baker.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "bake/direct_transfer.h"
 #include "bake/fixed_point.h"
@@ -147,22 +149,41 @@ class Baker {
     measureRoughness(reflections);
   }
 
-  /// What one worker needs to turn a point's sky masks into its transfer.
+  /// What one worker needs to turn sky masks into transfer.
   struct Evaluator {
     DirectTransfer direct;
-    std::vector<float> transfer;
+    std::vector<float> rows;  // of four points
   };
-
-  void evaluate(Evaluator& e, std::uint32_t p, std::span<const std::uint16_t> sky, double spin) {
-    e.direct.evaluate(sky, Vec3d(points_.pointNormal[p]), spin, e.transfer);
-    store(p, e.transfer);
-    result_.transfer.visibility[p] = static_cast<float>(e.direct.visibility(sky));
-    pairs_[p] = boundaryPairs(sky);
-  }
 
   std::vector<Evaluator> makeEvaluators(const DirectionSet& directions) const {
     return std::vector<Evaluator>(static_cast<std::size_t>(parallel_.threads()),
-                                  {DirectTransfer(directions), std::vector<float>(count())});
+                                  {DirectTransfer(directions), std::vector<float>(4 * count())});
+  }
+
+  /// Stores what points get, whose masks follow each other in `skies`.
+  void evaluate(Evaluator& e, std::span<const std::uint32_t> points, std::span<const std::uint16_t> skies) {
+    const std::size_t groups = skies.size() / std::max<std::size_t>(1, points.size());
+    const auto viewOf = [&](std::size_t i) {
+      return PointView{skies.subspan(i * groups, groups), Vec3d(points_.pointNormal[points[i]]),
+                       spinOf(options_.seed, points[i])};
+    };
+    std::size_t next = 0;
+    for (; next + 4 <= points.size(); next += 4) {
+      const std::array views{viewOf(next), viewOf(next + 1), viewOf(next + 2), viewOf(next + 3)};
+      e.direct.evaluate(views, e.rows);
+      for (std::size_t i = 0; i < 4; ++i) storeTraced(points[next + i], e, i, views[i].sky);
+    }
+    for (; next < points.size(); ++next) {
+      const PointView view = viewOf(next);
+      e.direct.evaluate(view, e.rows);
+      storeTraced(points[next], e, 0, view.sky);
+    }
+  }
+
+  void storeTraced(std::uint32_t p, const Evaluator& e, std::size_t row, std::span<const std::uint16_t> sky) {
+    store(p, std::span(e.rows).subspan(row * count(), count()));
+    result_.transfer.visibility[p] = static_cast<float>(e.direct.visibility(sky));
+    pairs_[p] = boundaryPairs(sky);
   }
 
   void traceSky(const RayScene& scene, const DirectionSet& directions) {
@@ -172,27 +193,22 @@ class Baker {
       tracers.emplace_back(points_, scene, directions, options_.seed, false);
     const auto groups = static_cast<std::size_t>(directions.groups());
     const std::size_t together = std::max<std::size_t>(1, RayScene::kMaxGroups / groups);
+    const auto look = [&](std::span<const std::uint32_t> points, std::size_t worker) {
+      std::vector<std::uint16_t> skies(points.size() * groups);
+      tracers[worker].look(points, skies);
+      evaluate(evaluators[worker], points, skies);
+    };
     progress_.begin("tracing", static_cast<double>(points_.size()) * directions.size(), "rays");
     // Small blocks: whoever is done first waits for the last block of the others.
-    parallel_.forBlocks(points_.size(), std::max(together, kSkyBlock),
-                        [&](std::size_t begin, std::size_t end, int worker) {
-                          const FlushDenormals flush;
-                          PointTracer& tracer = tracers[static_cast<std::size_t>(worker)];
-                          std::vector<std::uint32_t> block;
-                          for (std::size_t p = begin; p < end; ++p) {
-                            if (isWanted(p)) block.push_back(static_cast<std::uint32_t>(p));
-                          }
-                          std::vector<std::uint16_t> skies(together * groups);
-                          for (std::size_t first = 0; first < block.size(); first += together) {
-                            const auto some = std::span(block).subspan(first, std::min(together, block.size() - first));
-                            tracer.look(some, std::span(skies).first(some.size() * groups));
-                            for (std::size_t i = 0; i < some.size(); ++i) {
-                              evaluate(evaluators[static_cast<std::size_t>(worker)], some[i],
-                                       std::span(skies).subspan(i * groups, groups), tracer.spin(some[i]));
-                            }
-                          }
-                          progress_.advance(static_cast<double>(end - begin) * directions.size());
-                        });
+    parallel_.forBlocks(points_.size(), std::max(together, kSkyBlock), [&](std::size_t begin, std::size_t end, int w) {
+      const FlushDenormals flush;
+      std::vector<std::uint32_t> block;
+      for (std::size_t p = begin; p < end; ++p) {
+        if (isWanted(p)) block.push_back(static_cast<std::uint32_t>(p));
+      }
+      look(block, static_cast<std::size_t>(w));
+      progress_.advance(static_cast<double>(end - begin) * directions.size());
+    });
     progress_.end();
   }
 
@@ -201,9 +217,9 @@ class Baker {
     auto evaluators = makeEvaluators(directions);
     progress_.begin("tracing", static_cast<double>(points_.size()) * directions.size(), "rays");
     reflections.trace(
-        [&](std::uint32_t p, double spin, std::span<const std::uint16_t> sky, std::span<const Hit>, int worker) {
+        [&](std::uint32_t p, double, std::span<const std::uint16_t> sky, std::span<const Hit>, int worker) {
           if (skies.empty()) {
-            evaluate(evaluators[static_cast<std::size_t>(worker)], p, sky, spin);
+            evaluate(evaluators[static_cast<std::size_t>(worker)], std::span(&p, 1), sky);
           } else {
             std::copy(sky.begin(), sky.end(), skies.begin() + static_cast<std::ptrdiff_t>(p * sky.size()));
           }
@@ -218,11 +234,10 @@ class Baker {
     progress_.begin("evaluating", static_cast<double>(points_.size()), "points");
     parallel_.forBlocks(points_.size(), 1024, [&](std::size_t begin, std::size_t end, int worker) {
       const FlushDenormals flush;
-      for (std::size_t i = begin; i < end; ++i) {
-        const auto p = static_cast<std::uint32_t>(i);
-        evaluate(evaluators[static_cast<std::size_t>(worker)], p, skies.subspan(i * groups, groups),
-                 spinOf(options_.seed, p));
-      }
+      std::vector<std::uint32_t> block(end - begin);
+      std::iota(block.begin(), block.end(), static_cast<std::uint32_t>(begin));
+      evaluate(evaluators[static_cast<std::size_t>(worker)], block,
+               skies.subspan(begin * groups, block.size() * groups));
       progress_.advance(static_cast<double>(end - begin));
     });
     progress_.end();

@@ -75,6 +75,11 @@ SHBAKE_WIDE void addGroupsOf(const DirectionSet& set, std::span<const std::uint1
   }
 }
 
+/// What sees nothing gets 0, not -0.
+float toFloat(double coefficient) {
+  return static_cast<float>(coefficient + 0.0);
+}
+
 SHBAKE_WIDE int countVisible(std::span<const std::uint16_t> sky) {
   int visible = 0;
   for (const std::uint16_t mask : sky) visible += std::popcount(mask);
@@ -87,7 +92,9 @@ DirectTransfer::DirectTransfer(const DirectionSet& directions)
     : directions_(directions),
       rotation_(directions.order()),
       local_(directions.stride()),
-      world_(static_cast<std::size_t>(sh::coefficientCount(directions.order()))) {}
+      world_(static_cast<std::size_t>(sh::coefficientCount(directions.order()))),
+      locals_(world_.size()),
+      worlds_(world_.size()) {}
 
 double DirectTransfer::visibility(std::span<const std::uint16_t> sky) const {
   return static_cast<double>(countVisible(sky)) / directions_.size();
@@ -100,21 +107,38 @@ void DirectTransfer::sum(std::span<const std::uint16_t> sky) {
   }
 }
 
-void DirectTransfer::evaluate(std::span<const std::uint16_t> sky, const Vec3d& normal, double spin,
-                              std::span<float> out) {
+void DirectTransfer::findLocal(std::span<const std::uint16_t> sky) {
   const double v = visibility(sky);
-  const std::size_t count = world_.size();
   if (v == 1) {
     std::copy(directions_.unshadowed().begin(), directions_.unshadowed().end(), local_.begin());
-  } else if (v == 0) {
-    std::fill(out.begin(), out.end(), 0.0f);
     return;
-  } else {
-    sum(sky);
-    for (std::size_t k = 0; k < count; ++k) local_[k] = local_[k] / directions_.size() + v * directions_.residual()[k];
   }
-  rotation_.toWorld(normal, spin, std::span<const double>(local_.data(), count), world_);
-  for (std::size_t k = 0; k < count; ++k) out[k] = static_cast<float>(world_[k]);
+  sum(sky);
+  for (std::size_t k = 0; k < world_.size(); ++k) {
+    local_[k] = local_[k] / directions_.size() + v * directions_.residual()[k];
+  }
+}
+
+void DirectTransfer::evaluate(const PointView& view, std::span<float> out) {
+  findLocal(view.sky);
+  rotation_.toWorld(view.normal, view.spin, std::span<const double>(local_.data(), world_.size()), world_);
+  for (std::size_t k = 0; k < world_.size(); ++k) out[k] = toFloat(world_[k]);
+}
+
+void DirectTransfer::evaluate(std::span<const PointView, 4> views, std::span<float> out) {
+  std::array<Vec3d, 4> normals;
+  std::array<double, 4> spins;
+  for (std::size_t i = 0; i < 4; ++i) {
+    findLocal(views[i].sky);
+    for (std::size_t k = 0; k < locals_.size(); ++k) locals_[k].set(static_cast<int>(i), local_[k]);
+    normals[i] = views[i].normal;
+    spins[i] = views[i].spin;
+  }
+  rotation_.toWorld(normals, spins, locals_, worlds_);
+  for (std::size_t i = 0; i < 4; ++i) {
+    float* row = &out[i * worlds_.size()];
+    for (std::size_t k = 0; k < worlds_.size(); ++k) row[k] = toFloat(worlds_[k][static_cast<int>(i)]);
+  }
 }
 
 }  // namespace shbake

@@ -26,7 +26,7 @@ void SurfaceTracer::trace(std::uint32_t p, std::span<double> out) {
   } else {
     tracer_.lookForHits(p, sky_, hits_);
   }
-  direct_.evaluate(sky_, Vec3d(points_.pointNormal[p]), tracer_.spin(p), directTransfer_);
+  direct_.evaluate({sky_, Vec3d(points_.pointNormal[p]), tracer_.spin(p)}, directTransfer_);
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i] = static_cast<double>(directTransfer_[i % directTransfer_.size()]);
   }

@@ -55,6 +55,25 @@ void FrameRotation::toWorld(const Vec3d& normal, double spin, std::span<const do
   turn_.rotateZyz(phi, theta, turnOf(spin), local.data(), world.data());
 }
 
+void FrameRotation::toWorld(const std::array<Vec3d, 4>& normals, const std::array<double, 4>& spins,
+                            std::span<const Four> local, std::span<Four> world) const {
+  requireCoefficients(order(), local.size(), "the input of toWorld()");
+  requireCoefficients(order(), world.size(), "the output of toWorld()");
+  TurnOf<Four> phi, theta, spin;
+  const auto setLane = [](TurnOf<Four>& four, int i, const Turn& one) {
+    four.cosine.set(i, one.cosine);
+    four.sine.set(i, one.sine);
+  };
+  for (int i = 0; i < 4; ++i) {
+    const auto lane = static_cast<std::size_t>(i);
+    const Polar polar = polarOf(normals[lane]);
+    setLane(phi, i, polar.phi);
+    setLane(theta, i, polar.theta);
+    setLane(spin, i, turnOf(spins[lane]));
+  }
+  turn_.rotateZyz(phi, theta, spin, local.data(), world.data());
+}
+
 void FrameRotation::toLocal(const Vec3d& normal, double spin, std::span<const double> world,
                             std::span<double> local) const {
   requireCoefficients(order(), world.size(), "the input of toLocal()");

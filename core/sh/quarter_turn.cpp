@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/wide.h"
 #include "sh/basis.h"
 #include "sh/check.h"
 
@@ -112,42 +113,48 @@ constexpr int rowStart(int l, int m) {
 template <int l>
 using Degree = std::integral_constant<int, l>;
 
-template <int l, int m, int... k>
-double fixedRow(const double* values, const double* in, std::integer_sequence<int, k...>) {
-  return (0.0 + ... + (values[rowStart(l, m) + k] * in[rowPattern(l, m).column(l, k)]));
+// T is double, or Four of four functions. All of it is inlined, so that it is compiled for wide vector units where its
+// caller is.
+#define SHBAKE_INLINE [[gnu::always_inline]] inline
+
+template <int l, int m, class T, int... k>
+SHBAKE_INLINE T fixedRow(const double* values, const T* in, std::integer_sequence<int, k...>) {
+  return (T(0) + ... + (values[rowStart(l, m) + k] * in[rowPattern(l, m).column(l, k)]));
 }
 
-template <int l, int... row>
-void fixedRows(const double* values, const double* in, double* out, std::integer_sequence<int, row...>) {
+template <int l, class T, int... row>
+SHBAKE_INLINE void fixedRows(const double* values, const T* in, T* out, std::integer_sequence<int, row...>) {
   ((out[row] = fixedRow<l, row - l>(values, in, std::make_integer_sequence<int, rowPattern(l, row - l).count(l)>())),
    ...);
 }
 
 /// out = X in for one band, X given by the entries that symmetry leaves.
-template <int l>
-void multiply(Degree<l>, const double* values, const double* in, double* out) {
+template <int l, class T>
+SHBAKE_INLINE void multiply(Degree<l>, const double* values, const T* in, T* out) {
   fixedRows<l>(values, in, out, std::make_integer_sequence<int, 2 * l + 1>());
 }
 
-void multiply(int l, const double* values, const double* in, double* out) {
+template <class T>
+SHBAKE_INLINE void multiply(int l, const double* values, const T* in, T* out) {
   for (int m = -l; m <= l; ++m) {
     const RowPattern pattern = rowPattern(l, m);
     const int count = pattern.count(l);
-    double sum = 0;
-    for (int k = 0; k < count; ++k) sum += values[k] * in[pattern.column(l, k)];
+    T sum = 0;
+    for (int k = 0; k < count; ++k) sum = sum + values[k] * in[pattern.column(l, k)];
     values += count;
     out[m + l] = sum;
   }
 }
 
 /// R_z(last) R_x(-90) R_z(middle) R_x(90) R_z(first) on one band.
+template <class T>
 struct BandZyz {
-  ZRotation last, middle, first;
+  ZRotationOf<T> last, middle, first;
 
   /// `l` is an int or a Degree.
   template <class L>
-  void apply(L l, const double* forward, const double* backward, const double* in, double* out) const {
-    std::array<double, 2 * kMaxTurnOrder - 1> a, b;
+  SHBAKE_INLINE void apply(L l, const double* forward, const double* backward, const T* in, T* out) const {
+    std::array<T, 2 * kMaxTurnOrder - 1> a, b;
     std::copy_n(in, 2 * l + 1, a.data());
     first.apply(l, a.data());
     multiply(l, forward, a.data(), b.data());
@@ -195,18 +202,45 @@ void QuarterTurn::applyInverse(int l, const double* in, double* out) const {
   multiply(l, backward_.data() + starts_[l], in, out);
 }
 
+/// What a rotation reads.
+struct QuarterTurn::Bands {
+  int order;
+  const double *forward, *backward;
+  const std::size_t* starts;
+
+  template <class T>
+  SHBAKE_INLINE void rotate(const BandZyz<T>& turns, const T* in, T* out) const {
+    const auto band = [&](auto l) __attribute__((always_inline)) {
+      const int start = index(l, -l);
+      turns.apply(l, forward + starts[l], backward + starts[l], in + start, out + start);
+    };
+    out[0] = in[0];
+    if (order > 1) band(Degree<1>());
+    if (order > 2) band(Degree<2>());
+    if (order > 3) band(Degree<3>());
+    if (order > 4) band(Degree<4>());
+    for (int l = 5; l < order; ++l) band(l);
+  }
+
+  SHBAKE_WIDE static void rotateFour(const Bands& bands, const TurnOf<Four>& last, const TurnOf<Four>& middle,
+                                     const TurnOf<Four>& first, const Four* in, Four* out) {
+    const int order = bands.order;
+    bands.rotate(BandZyz<Four>{{order, last}, {order, middle}, {order, first}}, in, out);
+  }
+};
+
+QuarterTurn::Bands QuarterTurn::bands() const {
+  return {order_, forward_.data(), backward_.data(), starts_.data()};
+}
+
 void QuarterTurn::rotateZyz(Turn last, Turn middle, Turn first, const double* in, double* out) const {
-  const BandZyz turns{ZRotation(order_, last), ZRotation(order_, middle), ZRotation(order_, first)};
-  const auto band = [&](auto l) {
-    const int start = index(l, -l);
-    turns.apply(l, forward_.data() + starts_[l], backward_.data() + starts_[l], in + start, out + start);
-  };
-  out[0] = in[0];
-  if (order_ > 1) band(Degree<1>());
-  if (order_ > 2) band(Degree<2>());
-  if (order_ > 3) band(Degree<3>());
-  if (order_ > 4) band(Degree<4>());
-  for (int l = 5; l < order_; ++l) band(l);
+  bands().rotate(BandZyz<double>{ZRotation(order_, last), ZRotation(order_, middle), ZRotation(order_, first)}, in,
+                 out);
+}
+
+void QuarterTurn::rotateZyz(const TurnOf<Four>& last, const TurnOf<Four>& middle, const TurnOf<Four>& first,
+                            const Four* in, Four* out) const {
+  Bands::rotateFour(bands(), last, middle, first, in, out);
 }
 
 }  // namespace shbake::sh

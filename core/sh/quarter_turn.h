@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/four.h"
 #include "sh/z_rotation.h"
 
 namespace shbake::sh {
@@ -25,8 +26,14 @@ class QuarterTurn {
   /// out = R_z(last) R_y(middle) R_z(first) in, for all order()^2 coefficients, where R_y(b) = R_x(-90) R_z(b) R_x(90)
   /// (maths.md (16)). `in` and `out` may be the same array.
   void rotateZyz(Turn last, Turn middle, Turn first, const double* in, double* out) const;
+  /// The same of four functions at once, each by angles of its own: the same bits in a third of the time.
+  void rotateZyz(const TurnOf<Four>& last, const TurnOf<Four>& middle, const TurnOf<Four>& first, const Four* in,
+                 Four* out) const;
 
  private:
+  struct Bands;
+  Bands bands() const;
+
   int order_;
   std::vector<std::size_t> starts_;         ///< where band l begins in the arrays below
   std::vector<double> forward_, backward_;  ///< the entries that symmetry leaves, row by row, |column order| rising

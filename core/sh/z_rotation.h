@@ -8,16 +8,19 @@ namespace shbake::sh {
 /// The highest order that ZRotation and what stands on it accept.
 inline constexpr int kMaxTurnOrder = 128;
 
-/// cos and sin of an angle, without the angle.
-struct Turn {
-  double cosine = 1, sine = 0;
+/// cos and sin of an angle, without the angle. T is double, or Four of four angles.
+template <class T>
+struct TurnOf {
+  T cosine = 1, sine = 0;
 };
+using Turn = TurnOf<double>;
 
 /// cos m a and sin m a for m below an order, by the addition theorem, on the stack.
-class ZRotation {
+template <class T>
+class ZRotationOf {
  public:
   /// The rotation by the angle a about z, for degrees 0..order-1; order <= kMaxTurnOrder.
-  ZRotation(int order, Turn a) {
+  [[gnu::always_inline]] ZRotationOf(int order, const TurnOf<T>& a) {
     cosines_[0] = 1;
     sines_[0] = 0;
     for (int m = 1; m < order; ++m) {
@@ -27,16 +30,17 @@ class ZRotation {
   }
 
   /// Turns the 2l+1 coefficients m = -l..l of one band in place, maths.md (15).
-  void apply(int l, double* band) const {
+  [[gnu::always_inline]] void apply(int l, T* band) const {
     for (int m = 1; m <= l; ++m) {
-      const double c = band[l + m], s = band[l - m];
+      const T c = band[l + m], s = band[l - m];
       band[l + m] = c * cosines_[m] - s * sines_[m];
       band[l - m] = c * sines_[m] + s * cosines_[m];
     }
   }
 
  private:
-  std::array<double, kMaxTurnOrder> cosines_, sines_;
+  std::array<T, kMaxTurnOrder> cosines_, sines_;
 };
+using ZRotation = ZRotationOf<double>;
 
 }  // namespace shbake::sh

@@ -1,4 +1,5 @@
 // Direct transfer: the float table against plain sums in double, and the cases that have a closed form.
+#include <array>
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -76,7 +77,7 @@ TEST_CASE("float tables give the plain double sum at every stride", "[direct_tra
         const auto sky = randomMasks(set, visible, seed);
         if (visibleCount(sky) == 0) continue;
         const Vec3d normal = randomDirection(seed, 1);
-        direct.evaluate(sky, normal, 0.7, out);
+        direct.evaluate({sky, normal, 0.7}, out);
         const std::vector<double> expected = plainSum(set, sky, normal, 0.7);
         std::vector<double> difference(expected.size());
         for (std::size_t k = 0; k < expected.size(); ++k) difference[k] = double(out[k]) - expected[k];
@@ -98,7 +99,7 @@ TEST_CASE("an open point is the closed form exactly, whatever the lattice", "[di
       std::vector<double> exact(out.size());
       for (std::uint64_t i = 0; i < 10; ++i) {
         const Vec3d normal = i == 0 ? Vec3d(0, 0, -1) : randomDirection(3, i);
-        direct.evaluate(sky, normal, 0.3 * double(i), out);
+        direct.evaluate({sky, normal, 0.3 * double(i)}, out);
         sh::unshadowedTransfer(order, normal, 1, exact);
         // Rounded to float once; the rotation before it is exact to 1e-14.
         for (std::size_t k = 0; k < out.size(); ++k) {
@@ -115,9 +116,33 @@ TEST_CASE("a buried point gets nothing", "[direct_transfer]") {
   DirectTransfer direct(set);
   const std::vector<std::uint16_t> sky(4, 0);
   std::vector<float> out(16, 7.0f);
-  direct.evaluate(sky, {0, 0.6, 0.8}, 1, out);
-  for (const float value : out) CHECK(value == 0);
+  direct.evaluate({sky, {0, 0.6, 0.8}, 1}, out);
+  for (const float value : out) CHECK((value == 0 && !std::signbit(value)));
   CHECK(direct.visibility(sky) == 0);
+}
+
+TEST_CASE("four points at once get what each gets alone", "[direct_transfer]") {
+  for (const int order : {1, 2, 3, 4, 5, 6, 8, 9, 16}) {
+    const DirectionSet set(64, order);
+    DirectTransfer direct(set);
+    const std::size_t count = static_cast<std::size_t>(order * order);
+    std::vector<std::vector<std::uint16_t>> skies;
+    for (const double visible : {0.0, 0.3, 0.9, 1.0}) skies.push_back(randomMasks(set, visible, 5));
+    std::array<PointView, 4> views;
+    for (std::size_t i = 0; i < 4; ++i) {
+      // The second normal is the pole.
+      const Vec3d normal = i == 1 ? Vec3d(0, 0, -1) : randomDirection(9, i);
+      views[i] = {skies[i], normal, 0.5 + double(i)};
+    }
+    std::vector<float> together(4 * count, 7.0f), alone(count);
+    direct.evaluate(views, together);
+    for (std::size_t i = 0; i < 4; ++i) {
+      INFO("order " << order << ", point " << i);
+      direct.evaluate(views[i], alone);
+      CHECK(std::equal(alone.begin(), alone.end(), together.begin() + static_cast<std::ptrdiff_t>(i * count)));
+    }
+    CHECK(visibleCount(skies[3]) == set.size());
+  }
 }
 
 TEST_CASE("rays add up: two disjoint masks give the sum of their transfers", "[direct_transfer]") {
@@ -129,8 +154,8 @@ TEST_CASE("rays add up: two disjoint masks give the sum of their transfers", "[d
   std::vector<float> a(16), b(16);
   std::vector<double> whole(16);
   const Vec3d normal = normalized(Vec3d(1, -2, 3));
-  direct.evaluate(some, normal, 2, a);
-  direct.evaluate(others, normal, 2, b);
+  direct.evaluate({some, normal, 2}, a);
+  direct.evaluate({others, normal, 2}, b);
   sh::unshadowedTransfer(4, normal, 1, whole);
   for (std::size_t k = 0; k < 16; ++k) {
     // Two sums of 16 groups, 9 additions each at most, of terms whose absolute mean is below 1.

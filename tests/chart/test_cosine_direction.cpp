@@ -60,7 +60,7 @@ TEST_CASE("a set of given directions sums what is seen, each by its weight", "[c
           sky[static_cast<std::size_t>(i / 16)] |= static_cast<std::uint16_t>(seen ? 1u << (i % 16) : 0u);
         }
         std::vector<float> sum(y.size());
-        DirectTransfer(set).evaluate(sky, {0, 0, 1}, 0, sum);
+        DirectTransfer(set).evaluate({sky, {0, 0, 1}, 0}, sum);
         const std::vector<double> expected = sumOf(isSeen);
         // 64 groups of up to 17 rows are added in float, each rounded at 2^-24 of at most the sum of |w y| so far; the
         // turn to world axes and the result are rounded once more.
