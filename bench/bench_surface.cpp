@@ -11,6 +11,7 @@
 #include <map>
 #include <tuple>
 
+#include "bake/direction_set.h"
 #include "bake/surface_error.h"
 #include "chart/methods/cpu_clock.h"
 #include "pipeline/auto_bake.h"
@@ -102,9 +103,9 @@ class SurfaceBench {
     std::printf("%-24s %-14s %8zu %6.2f |", label_.c_str(), transferName(kind_), mesh_.positions.size(),
                 100 * tolerance);
     for (const Trial* method : {&fit, &refined, &chosen}) {
-      const Trial points = pointsIn(method->seconds);
-      std::printf(" %7.3f %7.3f %7.2fs %5.2f |", 100 * points.error.rms, 100 * method->error.rms, method->seconds,
-                  method->error.rms / points.error.rms);
+      const double points = errorOfPointsIn(method->seconds);
+      std::printf(" %7.3f %7.3f %7.2fs %5.2f |", 100 * points, 100 * method->error.rms, method->seconds,
+                  method->error.rms / points);
     }
     std::printf("\n");
     std::fflush(stdout);
@@ -217,10 +218,15 @@ class SurfaceBench {
     rest_ = std::max(0.0, few - options_.methodRays * secondsPerRay_);
   }
 
-  /// Point sampling with as many rays as take that time.
-  Trial pointsIn(double seconds) {
+  /// The error of point sampling with as many rays as take that time. A bake takes whole groups of them: between two of
+  /// these the error is a power of the rays.
+  double errorOfPointsIn(double seconds) {
     const double rays = std::clamp((seconds - rest_) / secondsPerRay_, double(kLeastRays), double(1 << 20));
-    return bakeByHand(0, static_cast<int>(rays), FitKind::vertex);
+    constexpr int kGroup = DirectionSet::kGroup;
+    const int fewer = static_cast<int>(rays) / kGroup * kGroup;
+    const double before = bakeByHand(0, fewer, FitKind::vertex).error.rms;
+    const double after = bakeByHand(0, fewer + kGroup, FitKind::vertex).error.rms;
+    return before * std::pow(after / before, std::log(rays / fewer) / std::log(1 + double(kGroup) / fewer));
   }
 
   /// Tries edges from none on down, rays from few on up, with and without a fit, as far as the cost stays within reach
