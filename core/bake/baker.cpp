@@ -217,7 +217,7 @@ class Baker {
     auto evaluators = makeEvaluators(directions);
     progress_.begin("tracing", static_cast<double>(points_.size()) * directions.size(), "rays");
     reflections.trace(
-        [&](std::uint32_t p, double, std::span<const std::uint16_t> sky, std::span<const Hit>, int worker) {
+        [&](std::uint32_t p, std::span<const std::uint16_t> sky, std::span<const Hit>, int worker) {
           if (skies.empty()) {
             evaluate(evaluators[static_cast<std::size_t>(worker)], std::span(&p, 1), sky);
           } else {

@@ -58,9 +58,9 @@ void Reflections::traceBlock(std::size_t begin, std::size_t end, int worker, Blo
     const std::size_t first = block.hits.size();
     tracer.lookForHits(static_cast<std::uint32_t>(p), sky, block.hits);
     block.ends.push_back(static_cast<std::uint32_t>(block.hits.size()));
-    if (visit != nullptr)
-      (*visit)(static_cast<std::uint32_t>(p), tracer.spin(static_cast<std::uint32_t>(p)), sky,
-               std::span(block.hits).subspan(first), worker);
+    if (visit != nullptr) {
+      (*visit)(static_cast<std::uint32_t>(p), sky, std::span(block.hits).subspan(first), worker);
+    }
   }
 }
 

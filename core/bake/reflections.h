@@ -26,10 +26,10 @@ class Reflections {
   Reflections(const LightingPoints& points, const RayScene& scene, const DirectionSet& directions, std::uint64_t seed,
               bool twoSided, std::size_t memoryBudget, const Parallel& parallel);
 
-  /// Called with a point, the turn of its directions, its sky masks (one a group of the direction set), its reflecting
-  /// hits and the worker's number.
-  using Visit = std::function<void(std::uint32_t point, double spin, std::span<const std::uint16_t> sky,
-                                   std::span<const Hit> hits, int worker)>;
+  /// Called with a point, its sky masks (one a group of the direction set), its reflecting hits and the worker's
+  /// number.
+  using Visit = std::function<void(std::uint32_t point, std::span<const std::uint16_t> sky, std::span<const Hit> hits,
+                                   int worker)>;
   /// Traces every point, hands it to `visit` and stores its hits. `progress` advances by rays.
   void trace(const Visit& visit, Progress& progress);
 

@@ -32,7 +32,7 @@ class Traced {
         sky(points.size()) {
     std::vector<std::atomic<int>> visits(points.size());
     reflections_.trace(
-        [&](std::uint32_t p, double, std::span<const std::uint16_t> masks, std::span<const Hit> found, int) {
+        [&](std::uint32_t p, std::span<const std::uint16_t> masks, std::span<const Hit> found, int) {
           hits[p].assign(found.begin(), found.end());
           sky[p].assign(masks.begin(), masks.end());
           ++visits[p];
