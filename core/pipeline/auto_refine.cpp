@@ -145,9 +145,10 @@ class AutoRefiner {
       if (result_.rounds++ == 0) result_.before = result_.after;
       const double target = options_.target * options_.target;
       // What flat regions may leave: the rest of the target, but where curved faces have taken that already, as much as
-      // their share of the surface or as hardly shows beside what the others err.
+      // their share of the surface, and where these alone err more, as hardly shows beside that.
       const double curved = std::max(0.0, curved_);
-      const double flatTarget = std::max({target - curved, target * flatShare_, kBesideCurved * curved});
+      const double beside = curved > (1 + kScatter) * target ? kBesideCurved * curved : 0;
+      const double flatTarget = std::max({target - curved, target * flatShare_, beside});
       if (flat_ <= (1 + kScatter) * flatTarget) {
         result_.end = square <= (1 + kScatter) * target ? RefineEnd::met : RefineEnd::flatDone;
         break;

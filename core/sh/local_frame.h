@@ -32,7 +32,7 @@ class FrameRotation {
   /// A function given by `local` in the axes of localFrame(normal, spin) gets its coefficients in world axes. Both hold
   /// order^2 coefficients and may be the same array.
   void toWorld(const Vec3d& normal, double spin, std::span<const double> local, std::span<double> world) const;
-  /// The same of four functions, function i being lane i: the same bits in a third of the time.
+  /// The same of four functions, function i being lane i: the same bits, sooner.
   void toWorld(const std::array<Vec3d, 4>& normals, const std::array<double, 4>& spins, std::span<const Four> local,
                std::span<Four> world) const;
   /// The inverse of the first.

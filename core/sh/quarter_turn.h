@@ -26,7 +26,7 @@ class QuarterTurn {
   /// out = R_z(last) R_y(middle) R_z(first) in, for all order()^2 coefficients, where R_y(b) = R_x(-90) R_z(b) R_x(90)
   /// (maths.md (16)). `in` and `out` may be the same array.
   void rotateZyz(Turn last, Turn middle, Turn first, const double* in, double* out) const;
-  /// The same of four functions at once, each by angles of its own: the same bits in a third of the time.
+  /// The same of four functions at once, each by angles of its own: the same bits, sooner.
   void rotateZyz(const TurnOf<Four>& last, const TurnOf<Four>& middle, const TurnOf<Four>& first, const Four* in,
                  Four* out) const;
 
