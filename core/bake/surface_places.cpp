@@ -99,20 +99,26 @@ std::vector<SurfacePlace> drawPlaces(const LightingPoints& points, std::span<con
   return places;
 }
 
+PlacedPoint pointAt(const LightingPoints& points, const SurfacePlace& place) {
+  const Triangle &corners = points.faces[place.face], &facePoints = points.facePoints[place.face];
+  const auto position = [&](std::size_t k) { return points.positions[corners[k]]; };
+  Vec3d normal = normalized(blend<double>(place, [&](std::size_t k) { return points.pointNormal[facePoints[k]]; }));
+  if (normal == Vec3d()) {
+    normal = normalized(cross(Vec3d(position(1) - position(0)), Vec3d(position(2) - position(0))));
+  }
+  // Adding zeros makes negative ones positive.
+  return {blend<float>(place, position) + Vec3f(), Vec3f(normal),
+          blend<float>(place, [&](std::size_t k) { return points.pointAlbedo[facePoints[k]]; })};
+}
+
 void addPlaces(LightingPoints& points, std::span<const SurfacePlace> places) {
   for (const SurfacePlace& place : places) {
-    const Triangle &corners = points.faces[place.face], &facePoints = points.facePoints[place.face];
-    const auto position = [&](std::size_t k) { return points.positions[corners[k]]; };
-    Vec3d normal = normalized(blend<double>(place, [&](std::size_t k) { return points.pointNormal[facePoints[k]]; }));
-    if (normal == Vec3d()) {
-      normal = normalized(cross(Vec3d(position(1) - position(0)), Vec3d(position(2) - position(0))));
-    }
-    const Rgb albedo = blend<float>(place, [&](std::size_t k) { return points.pointAlbedo[facePoints[k]]; });
+    const PlacedPoint point = pointAt(points, place);
     points.pointPosition.push_back(static_cast<std::uint32_t>(points.positions.size()));
-    points.positions.push_back(blend<float>(place, position) + Vec3f());
+    points.positions.push_back(point.position);
     points.positionFaces.starts.push_back(static_cast<std::uint32_t>(points.positionFaces.items.size()));
-    points.pointNormal.push_back(Vec3f(normal));
-    points.pointAlbedo.push_back(albedo);
+    points.pointNormal.push_back(point.normal);
+    points.pointAlbedo.push_back(point.albedo);
   }
   // Room for one more, so that they are traced in place.
   points.positions.reserve(points.positions.size() + 1);

@@ -35,9 +35,17 @@ std::vector<double> areaWeights(const LightingPoints& points, std::size_t faces)
 std::vector<SurfacePlace> drawPlaces(const LightingPoints& points, std::span<const double> weights, std::size_t count,
                                      std::uint64_t seed, Progress& progress);
 
-/// Adds a lighting point for each place, with position, normal and albedo interpolated, in their order behind the
-/// others. No face has it as a corner: the fan test finds it in contact with its own. Positions may move: whoever
-/// traces them in place (FaceTree) must not be left behind.
+/// What a lighting point has, interpolated at a place.
+struct PlacedPoint {
+  Vec3f position;  ///< in work units
+  Vec3f normal;    ///< unit; the face's own where the interpolated one vanishes
+  Rgb albedo;
+};
+PlacedPoint pointAt(const LightingPoints& points, const SurfacePlace& place);
+
+/// Adds a lighting point for each place, pointAt() it, in their order behind the others. No face has it as a corner:
+/// the fan test finds it in contact with its own. Positions may move: whoever traces them in place (FaceTree) must not
+/// be left behind.
 void addPlaces(LightingPoints& points, std::span<const SurfacePlace> places);
 
 /// A copy of the points with places added, for whoever traces rays: without what is written to files. The faces of a
