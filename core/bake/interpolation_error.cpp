@@ -4,9 +4,7 @@
 #include <array>
 
 #include "bake/baker.h"
-#include "bake/direction_set.h"
-#include "bake/flush_denormals.h"
-#include "bake/ray_scene.h"
+#include "bake/surface_rays.h"
 #include "bake/surface_tracer.h"
 #include "base/error.h"
 #include "base/hash.h"
@@ -16,58 +14,75 @@ namespace {
 
 /// The independent streams of random numbers.
 enum Stream : std::uint64_t { kFirstBake, kSecondBake, kFirstRays, kSecondRays };
+constexpr std::array kBakes{kFirstBake, kSecondBake};
 
-/// A bake of the marked points, with reflections.
-TransferSet bakeOnce(TracedPoints& traced, const std::vector<std::uint8_t>& corners, BakeOptions options, Stream stream,
-                     const Parallel& parallel, Progress& progress) {
-  options.seed = hashBits(options.seed, stream);
-  return bakePoints(traced, corners, options, parallel, progress).transfer;
+/// The corners of the places' faces in ascending order, each once.
+std::vector<std::uint32_t> cornersOf(const LightingPoints& points, std::span<const SurfacePlace> places) {
+  std::vector<std::uint32_t> corners;
+  for (const SurfacePlace& place : places) {
+    const Triangle& t = points.facePoints[place.face];
+    corners.insert(corners.end(), t.begin(), t.end());
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
 }
 
-/// The same without reflections, and without looking at other points.
-TransferSet traceOnce(const LightingPoints& points, const std::vector<std::uint8_t>& corners, const RayScene& scene,
-                      const DirectionSet& directions, const BakeOptions& options, Stream stream,
-                      const Parallel& parallel, Progress& progress) {
-  TransferSet set;
-  set.order = options.order;
-  const auto count = static_cast<std::size_t>(set.coefficientsPerChannel());
-  for (std::size_t p = 0; p < corners.size(); ++p) {
-    if (corners[p] != 0 && isColored(points.pointAlbedo[p])) set.channels = 3;
-  }
-  set.coefficients.assign(corners.size() * set.stride(), 0);
-  std::vector<SurfaceTracer> tracers;
-  for (int i = 0; i < parallel.threads(); ++i) {
-    tracers.emplace_back(points, scene, directions, hashBits(options.seed, stream), options.twoSided, nullptr);
-  }
-  progress.begin("tracing", static_cast<double>(corners.size()), "points");
-  parallel.forBlocks(corners.size(), 256, [&](std::size_t begin, std::size_t end, int worker) {
-    const FlushDenormals flush;
-    std::vector<double> row(count);
-    for (std::size_t p = begin; p < end; ++p) {
-      if (corners[p] == 0) continue;
-      tracers[static_cast<std::size_t>(worker)].trace(static_cast<std::uint32_t>(p), row);
-      const Rgb& rho = points.pointAlbedo[p];
-      const std::array<float, 3> albedo{rho.x, rho.y, rho.z};
-      for (std::size_t i = 0; i < set.stride(); ++i) {
-        set.coefficients[p * set.stride() + i] = albedo[i / count] * static_cast<float>(row[i % count]);
-      }
+/// Two independent estimates of the transfer of corners.
+class BakedCorners {
+ public:
+  explicit BakedCorners(std::vector<std::uint32_t> corners) : corners_(std::move(corners)) {}
+
+  const std::vector<std::uint32_t>& points() const { return corners_; }
+  const TransferSet& set(std::size_t i) const { return sets_[i]; }
+
+  /// With reflections: sets have a row for each lighting point.
+  void bake(TracedPoints& traced, const BakeOptions& options, const Parallel& parallel, Progress& progress) {
+    std::vector<std::uint8_t> wanted(traced.points().size(), 0);
+    for (const std::uint32_t p : corners_) wanted[p] = 1;
+    for (std::size_t i = 0; i < sets_.size(); ++i) {
+      BakeOptions once = options;
+      once.seed = hashBits(options.seed, kBakes[i]);
+      sets_[i] = bakePoints(traced, wanted, once, parallel, progress).transfer;
     }
-    progress.advance(static_cast<double>(end - begin));
-  });
-  progress.end();
-  return set;
-}
-
-/// Appends the position of each point that is marked, once.
-void addPositions(const LightingPoints& points, const std::vector<std::uint8_t>& marked,
-                  std::vector<std::uint32_t>& positions) {
-  const auto first = static_cast<std::ptrdiff_t>(positions.size());
-  for (std::size_t p = 0; p < marked.size(); ++p) {
-    if (marked[p] != 0) positions.push_back(points.pointPosition[p]);
+    hasAllPoints_ = true;
   }
-  std::sort(positions.begin() + first, positions.end());
-  positions.erase(std::unique(positions.begin() + first, positions.end()), positions.end());
-}
+
+  /// Without reflections, and without looking at other points: a row for each corner.
+  void trace(const SurfaceRays& rays, bool hasColor, const BakeOptions& options) {
+    std::array<RaySet, 2> seeds{};
+    for (std::size_t i = 0; i < sets_.size(); ++i) {
+      seeds[i] = {hashBits(options.seed, kBakes[i]), nullptr};
+      sets_[i].order = options.order;
+      sets_[i].channels = hasColor ? 3 : 1;
+      sets_[i].coefficients.resize(corners_.size() * sets_[i].stride());
+    }
+    const auto count = static_cast<std::size_t>(sets_[0].coefficientsPerChannel()), stride = sets_[0].stride();
+    rays.traceCorners("tracing", seeds, 1, [&](std::size_t row, const Rgb& rho, auto transfers) {
+      const std::array<float, 3> albedo{rho.x, rho.y, rho.z};
+      for (std::size_t i = 0; i < sets_.size(); ++i) {
+        for (std::size_t k = 0; k < stride; ++k) {
+          sets_[i].coefficients[row * stride + k] = albedo[k / count] * static_cast<float>(transfers[i][k % count]);
+        }
+      }
+    });
+    hasAllPoints_ = false;
+  }
+
+  /// The rows of a face's corners.
+  Triangle rowsOf(const Triangle& points) const {
+    if (hasAllPoints_) return points;
+    const auto row = [&](std::uint32_t p) {
+      return static_cast<std::uint32_t>(std::lower_bound(corners_.begin(), corners_.end(), p) - corners_.begin());
+    };
+    return {row(points[0]), row(points[1]), row(points[2])};
+  }
+
+ private:
+  std::vector<std::uint32_t> corners_;
+  std::array<TransferSet, 2> sets_;
+  bool hasAllPoints_ = false;
+};
 
 }  // namespace
 
@@ -76,51 +91,27 @@ std::vector<double> interpolationSquares(TracedPoints& traced, std::span<const S
   if (options.kind == TransferKind::unshadowed || options.rays == 0) {
     throw usageError("the error of interpolation needs rays", "set BakeOptions::rays and a kind that is traced");
   }
-  const std::size_t firstPlace = traced.points().size();
-  const LightingPoints points = withPlaces(traced.points(), places);
-  std::vector<std::uint8_t> corners(firstPlace, 0);
-  for (const SurfacePlace& place : places) {
-    for (const std::uint32_t p : points.facePoints[place.face]) corners[p] = 1;
-  }
+  const LightingPoints& points = traced.points();
   const bool reflects = options.kind == TransferKind::interreflected && options.bounces != 0;
-  TransferSet first, second;
-  if (reflects) {
-    first = bakeOnce(traced, corners, options, kFirstBake, parallel, progress);
-    second = bakeOnce(traced, corners, options, kSecondBake, parallel, progress);
-  }
-  std::vector<std::uint32_t> origins = positionsFrom(points, firstPlace);
-  if (!reflects) addPositions(points, corners, origins);
-  const Contacts contacts(points, traced.tree(), origins, parallel, progress);
-  const RayScene scene(points, traced.tree(), contacts, static_cast<float>(options.maxDistance * points.frame.scale));
-  const DirectionSet directions(options.rays, options.order);
+  BakedCorners baked(cornersOf(points, places));
+  if (reflects) baked.bake(traced, options, parallel, progress);
+  const SurfaceRays rays(traced, places, reflects ? std::span<const std::uint32_t>() : baked.points(),
+                         DirectionSet(options.rays, options.order), options, parallel, progress);
   if (!reflects) {
-    first = traceOnce(points, corners, scene, directions, options, kFirstBake, parallel, progress);
-    second = traceOnce(points, corners, scene, directions, options, kSecondBake, parallel, progress);
+    const bool hasColor =
+        std::ranges::any_of(baked.points(), [&](std::uint32_t p) { return isColored(points.pointAlbedo[p]); });
+    baked.trace(rays, hasColor, options);
   }
-  std::vector<SurfaceTracer> ones, others;
-  for (int i = 0; i < parallel.threads(); ++i) {
-    const auto tracer = [&](Stream stream, const TransferSet& baked) {
-      return SurfaceTracer(points, scene, directions, hashBits(options.seed, stream), options.twoSided,
-                           reflects ? &baked : nullptr);
-    };
-    ones.push_back(tracer(kFirstRays, first));
-    others.push_back(tracer(kSecondRays, second));
-  }
+  const auto set = [&](Stream stream, std::size_t i) {
+    return RaySet{hashBits(options.seed, stream), reflects ? &baked.set(i) : nullptr};
+  };
   std::vector<double> squares(places.size());
-  progress.begin("probing the surface", static_cast<double>(places.size()) * 2 * directions.size(), "rays");
-  parallel.forBlocks(places.size(), 16, [&](std::size_t begin, std::size_t end, int worker) {
-    const FlushDenormals flush;
-    std::vector<double> one(first.stride()), other(first.stride());
-    for (std::size_t s = begin; s < end; ++s) {
-      const auto p = static_cast<std::uint32_t>(firstPlace + s);
-      ones[static_cast<std::size_t>(worker)].trace(p, one);
-      others[static_cast<std::size_t>(worker)].trace(p, other);
-      squares[s] = relativeSquare(points.facePoints[places[s].face], places[s].weights, points.pointAlbedo[p],
-                                  {first, one}, {second, other});
-      progress.advance(2 * directions.size());
-    }
-  });
-  progress.end();
+  rays.tracePlaces("probing the surface", std::array{set(kFirstRays, 0), set(kSecondRays, 1)}, baked.set(0).channels,
+                   [&](std::size_t s, const Rgb& albedo, auto transfers) {
+                     const Triangle rows = baked.rowsOf(points.facePoints[places[s].face]);
+                     squares[s] = relativeSquare(rows, places[s].weights, albedo, {baked.set(0), transfers[0]},
+                                                 {baked.set(1), transfers[1]});
+                   });
   return squares;
 }
 

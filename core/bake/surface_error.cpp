@@ -2,16 +2,17 @@
 #include "bake/surface_error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "bake/flush_denormals.h"
-#include "bake/ray_scene.h"
+#include "bake/direction_set.h"
 #include "bake/sampled_mean.h"
 #include "bake/senders.h"
 #include "bake/surface_places.h"
+#include "bake/surface_rays.h"
 #include "bake/surface_tracer.h"
 #include "base/error.h"
 #include "base/hash.h"
@@ -31,16 +32,11 @@ class SurfaceMeter {
  public:
   SurfaceMeter(TracedPoints& traced, const TransferSet& baked, const BakeOptions& bake, const Parallel& parallel,
                Progress& progress)
-      : traced_(traced),
-        baked_(baked),
-        bake_(bake),
-        parallel_(parallel),
-        progress_(progress),
-        firstSample_(traced.points().size()) {}
+      : traced_(traced), baked_(baked), bake_(bake), parallel_(parallel), progress_(progress) {}
 
   SurfaceError run(std::size_t faces, std::size_t samples, const TruthRays& rays) {
-    const LightingPoints& own = traced_.points();
-    places_ = drawPlaces(own, areaWeights(own, faces), samples, hashBits(bake_.seed, kPlaces), progress_);
+    const LightingPoints& points = traced_.points();
+    places_ = drawPlaces(points, areaWeights(points, faces), samples, hashBits(bake_.seed, kPlaces), progress_);
     if (places_.empty()) return {};
     squares_.resize(samples);
     if (bake_.kind == TransferKind::unshadowed) {
@@ -48,30 +44,28 @@ class SurfaceMeter {
     } else {
       measureTraced(rays);
     }
-    SurfaceError error =
-        surfaceErrorOf(squares_, [&](std::size_t s) { return points_.filePosition(firstSample_ + s); });
+    SurfaceError error = surfaceErrorOf(
+        squares_, [&](std::size_t s) { return points.frame.toFile(Vec3d(pointAt(points, places_[s]).position)); });
     error.rays = raysOfSample_;
     return error;
   }
 
  private:
-  double squareOf(std::size_t s, std::span<const double> first, std::span<const double> second) const {
-    const auto p = static_cast<std::uint32_t>(firstSample_ + s);
-    return relativeSquare(points_.facePoints[places_[s].face], places_[s].weights, points_.pointAlbedo[p],
-                          {baked_, first}, {baked_, second});
+  void take(std::size_t s, const Rgb& albedo, std::span<const double> first, std::span<const double> second) {
+    squares_[s] = relativeSquare(traced_.points().facePoints[places_[s].face], places_[s].weights, albedo,
+                                 {baked_, first}, {baked_, second});
   }
 
   void measureUnshadowed() {
-    points_ = withPlaces(traced_.points(), places_);
     progress_.begin("measuring the surface", static_cast<double>(places_.size()), "samples");
     parallel_.forBlocks(places_.size(), 64, [&](std::size_t begin, std::size_t end, int) {
       const auto count = static_cast<std::size_t>(baked_.coefficientsPerChannel());
       std::vector<double> exact(count), all(baked_.stride());
       for (std::size_t s = begin; s < end; ++s) {
-        const Vec3d normal = normalized(Vec3d(points_.pointNormal[firstSample_ + s]));
-        sh::unshadowedTransfer(baked_.order, normal, 1, exact);
+        const PlacedPoint place = pointAt(traced_.points(), places_[s]);
+        sh::unshadowedTransfer(baked_.order, normalized(Vec3d(place.normal)), 1, exact);
         for (std::size_t i = 0; i < all.size(); ++i) all[i] = exact[i % count];
-        squares_[s] = squareOf(s, all, all);
+        take(s, place.albedo, all, all);
       }
       progress_.advance(static_cast<double>(end - begin));
     });
@@ -80,45 +74,20 @@ class SurfaceMeter {
 
   void measureTraced(const TruthRays& rays) {
     const Senders senders(traced_, baked_, bake_, parallel_, progress_);
-    points_ = withPlaces(traced_.points(), places_);
-    const Contacts contacts(points_, traced_.tree(), positionsFrom(points_, firstSample_), parallel_, progress_);
-    const auto maxDistance = static_cast<float>(bake_.maxDistance * points_.frame.scale);
-    const RayScene scene(points_, traced_.tree(), contacts, maxDistance);
     const int most = std::max(kMostTruthRays, bake_.rays);
-    const DirectionSet directions(
-        std::max(rays.least, bake_.rays > most / rays.perRay ? most : rays.perRay * bake_.rays), baked_.order);
-    raysOfSample_ = 2 * directions.size();
-    std::vector<SurfaceTracer> first, second;
-    for (int i = 0; i < parallel_.threads(); ++i) {
-      const auto set = [&](Stream stream) {
-        return SurfaceTracer(points_, scene, directions, hashBits(bake_.seed, stream), bake_.twoSided,
-                             senders.transfer());
-      };
-      first.push_back(set(kFirstSet));
-      second.push_back(set(kSecondSet));
-    }
-    progress_.begin("measuring the surface", static_cast<double>(places_.size()) * raysOfSample_, "rays");
-    parallel_.forBlocks(places_.size(), 4, [&](std::size_t begin, std::size_t end, int worker) {
-      const FlushDenormals flush;
-      std::vector<double> one(baked_.stride()), other(baked_.stride());
-      for (std::size_t s = begin; s < end; ++s) {
-        const auto p = static_cast<std::uint32_t>(firstSample_ + s);
-        first[static_cast<std::size_t>(worker)].trace(p, one);
-        second[static_cast<std::size_t>(worker)].trace(p, other);
-        squares_[s] = squareOf(s, one, other);
-        progress_.advance(raysOfSample_);
-      }
-    });
-    progress_.end();
+    const int each = std::max(rays.least, bake_.rays > most / rays.perRay ? most : rays.perRay * bake_.rays);
+    const SurfaceRays truth(traced_, places_, {}, DirectionSet(each, baked_.order), bake_, parallel_, progress_);
+    raysOfSample_ = 2 * truth.setSize();
+    const auto set = [&](Stream stream) { return RaySet{hashBits(bake_.seed, stream), senders.transfer()}; };
+    truth.tracePlaces("measuring the surface", std::array{set(kFirstSet), set(kSecondSet)}, baked_.channels,
+                      [&](std::size_t s, const Rgb& albedo, auto sets) { take(s, albedo, sets[0], sets[1]); });
   }
 
   TracedPoints& traced_;
-  LightingPoints points_;  // with a place for each sample
   const TransferSet& baked_;
   const BakeOptions& bake_;
   const Parallel& parallel_;
   Progress& progress_;
-  std::size_t firstSample_;
   std::vector<SurfacePlace> places_;
   std::vector<double> squares_;  // of each sample's relative error; where rays are traced, with noise of mean zero
   int raysOfSample_ = 0;

@@ -1,6 +1,8 @@
 // Lighting points and what their rays are traced in.
 #include "bake/traced_points.h"
 
+#include "bake/surface_places.h"
+
 namespace shbake {
 
 const FaceTree& TracedPoints::tree() {
@@ -16,6 +18,13 @@ const Contacts& TracedPoints::contacts() {
 void TracedPoints::free() {
   contacts_.reset();
   tree_.reset();
+  copy_.reset();
+}
+
+LightingPoints& TracedPoints::pointsForPlaces() {
+  if (changeable_ != nullptr) return *changeable_;
+  if (!copy_) copy_.emplace(withPlaces(points_, {}));
+  return *copy_;
 }
 
 }  // namespace shbake

@@ -21,6 +21,11 @@ class TracedPoints {
   TracedPoints(const LightingPoints& points, const Parallel& parallel, Progress& progress)
       : points_(points), parallel_(parallel), progress_(progress) {}
 
+  /// The same for points that may change: places from which rays are traced (SurfaceRays) stand among them meanwhile,
+  /// where those that may not change are copied.
+  TracedPoints(LightingPoints& points, const Parallel& parallel, Progress& progress)
+      : points_(points), changeable_(&points), parallel_(parallel), progress_(progress) {}
+
   const LightingPoints& points() const { return points_; }
 
   /// Throws as FaceTree's constructor.
@@ -35,11 +40,17 @@ class TracedPoints {
 
   void free();
 
+  /// The points themselves or a copy, which is made when somebody first asks for it: to add places, which are gone
+  /// again before somebody else looks at them.
+  LightingPoints& pointsForPlaces();
+
  private:
   const LightingPoints& points_;
+  LightingPoints* changeable_ = nullptr;  // points_ itself, or null where it may not change
   const Parallel& parallel_;
   Progress& progress_;
   bool keeps_ = false;
+  std::optional<LightingPoints> copy_;
   std::optional<FaceTree> tree_;
   std::optional<Contacts> contacts_;
 };

@@ -79,14 +79,16 @@ SurfaceError measureSurfaceError(const BakedPly& baked, std::size_t samples, con
   Albedo albedo;
   albedo.per = Albedo::Per::vertex;
   albedo.values = albedoOf(baked);
-  const LightingPoints points = makeLightingPoints(baked.mesh, {}, albedo, progress);
+  LightingPoints points = makeLightingPoints(baked.mesh, {}, albedo, progress);
   const bool hasColor = std::any_of(points.pointAlbedo.begin(), points.pointAlbedo.end(), isColored);
   if (baked.transfer.channels != (hasColor ? 3 : 1)) {
     fail(baked, hasColor ? "has one channel, but colours as albedo" : "has three channels, but grey albedo",
          "bake the mesh with shbake bake --surface-error");
   }
   const TransferSet transfer = transferOf(points, baked.transfer);
-  return measureSurfaceError(points, transfer, options, {samples}, parallel, progress);
+  TracedPoints traced(points, parallel, progress);
+  traced.keepForMore(true);
+  return measureSurfaceError(traced, transfer, options, {samples}, parallel, progress);
 }
 
 }  // namespace shbake

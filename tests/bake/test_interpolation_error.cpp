@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "bake/interpolation_error.h"
 #include "bake/support.h"
@@ -93,6 +94,25 @@ TEST_CASE("the error of interpolation does not depend on threads", "[interpolati
   const std::vector<SurfacePlace> places = placesOn(points, 512, 3);
   const BakeOptions options = optionsOf(TransferKind::interreflected, 2, 32);
   CHECK(sameBits(squaresOf(points, places, options, 1), squaresOf(points, places, options, 3)));
+}
+
+TEST_CASE("without reflections a probe traces from places and their corners alone", "[interpolation_error]") {
+  const LightingPoints points = pointsOf(shapes::city(4, 1, 1));
+  const std::vector<SurfacePlace> places = placesOn(points, 16, 3);
+  std::set<std::uint32_t> corners;
+  for (const SurfacePlace& place : places) {
+    corners.insert(points.facePoints[place.face].begin(), points.facePoints[place.face].end());
+  }
+  REQUIRE(4 * corners.size() < points.size());
+  double rays = 0;
+  const Parallel parallel(1);
+  Progress progress([&](const ProgressState& state) {
+    if (state.unit == "rays" && state.done == 0) rays += state.total;
+    return true;
+  });
+  TracedPoints traced(points, parallel, progress);
+  interpolationSquares(traced, places, optionsOf(TransferKind::shadowed, 2, 32), parallel, progress);
+  CHECK(rays == 2.0 * 32 * double(places.size() + corners.size()));
 }
 
 TEST_CASE("probes without rays are refused", "[interpolation_error]") {
