@@ -24,17 +24,19 @@ constexpr double kAim = 0.94;
 /// The part of the aim that interpolation may take where vertices can be added; the noise of the vertices takes the
 /// rest. Fewer vertices with more rays each cost about the same between 0.7 and 0.9.
 constexpr double kInterpolationShare = 0.8;
-/// What is left between the vertices of what interpolation misses, and of the variance of their noise: the mean square
-/// of three weights by area.
+/// What is left between the vertices of what interpolation misses, by expectation and at best, and of the variance of
+/// their noise: the mean square of three weights by area.
 struct Left {
-  double missed, noise;
+  double missed, leastMissed, noise;
 };
-constexpr Left kPlainLeft{1, 0.5};
+constexpr Left kPlainLeft{1, 1, 0.5};
 /// The same where values are fitted or smoothed as samples tell; `bench_surface --tables left` measures 0.63 to 0.89
 /// and 0.06 to 0.55 on its scenes: near the upper ends, for a second bake costs more than the vertices that it saves.
-constexpr Left kFittedLeft{0.85, 0.4};
+constexpr Left kFittedLeft{0.85, 0.63, 0.4};
 /// The error that the vertices may always have, in tolerances, however little interpolation leaves to them.
 constexpr double kLeastNoise = 0.45;
+/// A bake that may fail is worth trying where it takes this many times fewer rays than one that is not expected to.
+constexpr double kFewerRays = 2;
 /// Places that find an error of 1 on a share tolerance^2 of the surface this often.
 constexpr double kFinds = 4;
 constexpr double kLeastSamples = 2048, kMostSamples = 16384;
@@ -176,9 +178,9 @@ class AutoBaker {
         aim *= kAim * tolerance() / surface.rms;
         continue;
       }
-      // More vertices cannot be had; more rays help where there is room for noise.
+      // More vertices cannot be had; more rays help where there is room for noise, or the last bake had more of it.
       missed_ = missedByJudge();
-      if (*missed_ >= aim) break;
+      if (*missed_ >= aim && options_.bake.tolerance <= kLeastNoise * aim) break;
     }
   }
 
@@ -220,12 +222,28 @@ class AutoBaker {
                                        refine, parallel_, progress_);
   }
 
-  /// The error that vertices may have, beside what interpolation misses.
+  /// The error that vertices may have, beside what interpolation misses. Where little room is expected for it, all
+  /// depends on how well values can be fitted, which differs from mesh to mesh: that is found out by few rays, enough
+  /// where a fit does as well as anywhere. Where that fails, the judge has told what this mesh needs.
   void chooseNoise(double aim) {
     if (!openRays_ || options_.bake.kind == TransferKind::unshadowed) return;
-    const double missed = missed_ ? *missed_ : left().missed * (isProbed() ? refined_->after : glance());
+    double noise = 0;
+    if (missed_) {
+      noise = noiseBeside(*missed_, aim);
+    } else {
+      const double missed = isProbed() ? refined_->after : glance();
+      noise = noiseBeside(left().missed * missed, aim);
+      const double hoped = noiseBeside(left().leastMissed * missed, aim);
+      // The error falls as rays^(-3/4).
+      if (std::pow(hoped / noise, 4.0 / 3) > kFewerRays) noise = hoped;
+    }
+    options_.bake.tolerance = std::min(noise, 1.0);
+  }
+
+  /// The error of the vertices that adds up to `aim` with what interpolation misses, or the least that they may have.
+  double noiseBeside(double missed, double aim) const {
     const double noise = std::sqrt(std::max(0.0, aim * aim - missed * missed) / left().noise);
-    options_.bake.tolerance = std::clamp(noise, kLeastNoise * aim, 1.0);
+    return std::max(noise, kLeastNoise * aim);
   }
 
   bool isProbed() const { return refined_ && refined_->rounds > 0; }
