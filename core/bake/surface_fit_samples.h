@@ -10,7 +10,6 @@
 #include "bake/traced_points.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "mesh/lighting_points.h"
 #include "transfer/transfer_set.h"
 
 namespace shbake {
@@ -21,7 +20,7 @@ struct PlaceTransfers {
   std::vector<double> scale;             ///< 1 / |unshadowed transfer|^2 of each place, 0 where it is black
 };
 
-/// Traces places of a surface whose points are baked; holds one copy of the points, to which the places are added.
+/// Traces places of a surface whose points are baked.
 class PlaceTracer {
  public:
   /// `senders` is what faces reflect to the places; null: nothing. `options.rays` is not looked at. References must
@@ -37,11 +36,7 @@ class PlaceTracer {
   double rays() const { return rays_; }
 
  private:
-  void forget();
-
   TracedPoints& traced_;
-  LightingPoints points_;
-  std::size_t ownPoints_, ownPositions_;
   int order_, channels_;
   const TransferSet* senders_;
   const BakeOptions& options_;
