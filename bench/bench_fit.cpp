@@ -10,7 +10,7 @@
 #include "bake/surface_fit.h"
 #include "bake/surface_fit_choice.h"
 #include "bake/surface_fit_samples.h"
-#include "chart/methods/cpu_clock.h"
+#include "equal_time.h"
 #include "scenes.h"
 
 namespace shbake::bench {
@@ -27,11 +27,10 @@ struct Options {
   SurfaceFitOptions fit;
 };
 
-/// One way to bake: its result, what it took, and what became of the fit.
+/// One way to bake: its result and what became of the fit.
 struct Trial {
   PointBake baked;
   FitReport fit;
-  double seconds = 0;
 };
 
 class MeshBench {
@@ -60,17 +59,11 @@ class MeshBench {
     SurfaceFitOptions fit = options_.fit;
     fit.kind = kind;
     Trial trial;
-    const double start = chart::cpuSeconds();
-    trial.baked = bakePoints(points_, {}, options, parallel_, progress_);
-    trial.fit = fitToSurface(points_, {}, trial.baked, options, fit, parallel_, progress_);
-    trial.seconds = chart::cpuSeconds() - start;
+    TracedPoints traced(points_, parallel_, progress_);
+    traced.keepForMore(kind != FitKind::vertex);
+    trial.baked = bakePoints(traced, {}, options, parallel_, progress_);
+    trial.fit = fitToSurface(traced, {}, trial.baked, options, fit, parallel_, progress_);
     return trial;
-  }
-
-  /// Points with as many rays as take the time of `trial`, by the time of one with `rays`.
-  Trial equalTime(int rays, double rayTime, const Trial& trial) {
-    const double fit = std::max(1.0, (trial.seconds - baseTime_) / rayTime);
-    return bake(std::max(rays, static_cast<int>(fit)), FitKind::vertex);
   }
 
   /// Held-out places of a seed of their own, with the light that `senders` send them.
@@ -85,20 +78,22 @@ class MeshBench {
   }
 
   void row(int rays) {
-    const Trial point = bake(rays, FitKind::vertex), twice = bake(2 * rays, FitKind::vertex);
-    const double rayTime = std::max(1e-9, (twice.seconds - point.seconds) / rays);
-    baseTime_ = std::max(0.0, point.seconds - rays * rayTime);
-    const Trial chosen = bake(rays, FitKind::automatic), fitted = bake(rays, FitKind::surface);
-    const Trial likeChosen = equalTime(rays, rayTime, chosen), likeFitted = equalTime(rays, rayTime, fitted);
-    const HeldOutSamples held = truth(likeFitted.baked.transfer);
+    const EqualTime equalTime([&](int n) { bake(n, FitKind::vertex); }, rays);
+    const Trial point = bake(rays, FitKind::vertex), chosen = bake(rays, FitKind::automatic),
+                fitted = bake(rays, FitKind::surface);
+    const HeldOutSamples held = truth(point.baked.transfer);
     const auto error = [&](const Trial& t) {
       return 100 * std::sqrt(std::max(0.0, held.squaredError(t.baked.transfer.coefficients).mean));
     };
-    const double e = error(point), a = error(chosen), f = error(fitted), la = error(likeChosen), lf = error(likeFitted);
-    std::printf("%-24s %7zu %5d | %7.3f %7.3fs | %7.3f %7.3fs %5.2f %5.2f | %7.3f %7.3fs %5.2f %5.2f | %zu+%zu %s\n",
-                label_.c_str(), points_.size(), rays, e, point.seconds, a, chosen.seconds, a / e, a / la, f,
-                fitted.seconds, f / e, f / lf, chosen.fit.smoothedPoints, chosen.fit.fittedPoints,
-                chosen.fit.reason.c_str());
+    const double ofPoints = error(point);
+    std::printf("%-24s %7zu %5d | %7.3f", label_.c_str(), points_.size(), rays, ofPoints);
+    for (const auto& [kind, trial] : {std::pair(FitKind::automatic, &chosen), std::pair(FitKind::surface, &fitted)}) {
+      const EqualTime::Cost cost = equalTime.of([&, kind = kind] { bake(rays, kind); });
+      const double e = error(*trial);
+      const double like = errorBetweenGroups(cost.rays, [&](int n) { return error(bake(n, FitKind::vertex)); });
+      std::printf(" | %7.3f %8.3fs %5.2f %5.2f", e, cost.seconds, e / ofPoints, e / like);
+    }
+    std::printf(" | %zu+%zu %s\n", chosen.fit.smoothedPoints, chosen.fit.fittedPoints, chosen.fit.reason.c_str());
     std::fflush(stdout);
   }
 
@@ -107,7 +102,6 @@ class MeshBench {
   Parallel parallel_;
   Progress progress_;
   LightingPoints points_;
-  double baseTime_ = 0;  // CPU seconds of a bake besides its rays
 };
 
 }  // namespace
@@ -135,7 +129,7 @@ int main(int argc, char** argv) {
         "order %d, %s; errors in %% between the vertices, CPU time, error over that of points with the same "
         "rays and over that of points in the same time; points smoothed + fitted\n",
         o.order, o.interreflected ? "interreflected" : "shadowed");
-    std::printf("%-24s %7s %5s | %16s | %28s | %28s |\n", "mesh", "points", "rays", "points", "chosen", "fitted");
+    std::printf("%-24s %7s %5s | %7s | %29s | %29s |\n", "mesh", "points", "rays", "points", "chosen", "fitted");
     for (const std::string& mesh : o.meshes) MeshBench(mesh, o).run();
   } catch (const std::exception& e) {
     std::fprintf(stderr, "bench_fit: %s\n", e.what());

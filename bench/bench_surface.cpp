@@ -1,7 +1,7 @@
 // bench_surface: whether refinement, fit and `--tolerance` hold what they promise, as places between the vertices judge
-// that no bake has seen. One table has the errors of the methods beside those of point sampling in the same CPU time;
-// another has what bakes to a tolerance reached, what they took, and what settings found by a sweep would have taken;
-// the third what a fit leaves of what interpolation misses and of the noise of the vertices.
+// that no bake has seen. One table has the errors of the methods beside those of point sampling in the same CPU time,
+// RMS over several seeds; another has what bakes to a tolerance reached, what they took, and what settings found by a
+// sweep would have taken; the third what a fit leaves of what interpolation misses and of the noise of the vertices.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@
 #include <map>
 #include <tuple>
 
-#include "bake/direction_set.h"
 #include "bake/surface_error.h"
 #include "chart/methods/cpu_clock.h"
+#include "equal_time.h"
 #include "pipeline/auto_bake.h"
 #include "pipeline/baked_surface_error.h"
 #include "scenes.h"
@@ -27,8 +27,10 @@ struct Options {
   std::vector<double> tolerances{0.1, 0.05, 0.02};
   std::vector<std::string> transfers{"shadowed", "interreflected"};
   std::vector<std::string> tables{"methods", "tolerances"};
+  std::vector<std::string> methods{"fit", "refined", "auto"};
   double methodShare = 0.3;  // of the error of point sampling: the tolerance of the methods that have one
   int methodRays = 256;      // of that point sampling, and of the fit
+  int seeds = 1;             // bakes of each method, over which errors are RMS
   int order = 4;
   std::size_t samples = 16384, sweepSamples = 4096;
   int truthRays = 256;  // each of the two sets of a sample has four times as many
@@ -37,8 +39,8 @@ struct Options {
   int threads = 0;
 };
 
-/// The seed of what judges; no bake here has it.
-constexpr std::uint64_t kJudge = 0x5EED;
+/// The seed of what judges; no bake here has it. Those of the bakes begin at the default.
+constexpr std::uint64_t kJudge = 0x5EED, kFirstSeed = 1;
 constexpr int kLeastRays = 16, kMostRays = 4096;
 /// Methods are told no lower tolerance: below, all that counts on smooth meshes is the number of rays.
 constexpr double kLeastTolerance = 0.003;
@@ -94,18 +96,23 @@ class SurfaceBench {
       : options_(options), label_(labelOf(name)), mesh_(meshOf(name)), kind_(kind), parallel_(options.threads) {}
 
   void methodsRow() {
-    measurePointTime();
-    const double ofPoints = bakeByHand(0, options_.methodRays, FitKind::vertex).error.rms;
-    const double tolerance = std::max(kLeastTolerance, options_.methodShare * ofPoints);
-    const Trial fit = bakeByHand(0, options_.methodRays, FitKind::automatic);
-    const Trial refined = bakeTo(tolerance, FitKind::vertex);
-    const Trial chosen = bakeTo(tolerance, FitKind::automatic);
+    const EqualTime equalTime([&](int rays) { bakeOnce(byHand(0, rays, FitKind::vertex)); }, options_.methodRays);
+    const auto errorOfPoints = [&](int rays) { return errorOverSeeds(byHand(0, rays, FitKind::vertex)); };
+    const double tolerance = std::max(kLeastTolerance, options_.methodShare * errorOfPoints(options_.methodRays));
     std::printf("%-24s %-14s %8zu %6.2f |", label_.c_str(), transferName(kind_), mesh_.positions.size(),
                 100 * tolerance);
-    for (const Trial* method : {&fit, &refined, &chosen}) {
-      const double points = errorOfPointsIn(method->seconds);
-      std::printf(" %7.3f %7.3f %7.2fs %5.2f |", 100 * points, 100 * method->error.rms, method->seconds,
-                  method->error.rms / points);
+    for (const std::string& method : options_.methods) {
+      const Bake bake = method == "fit"
+                            ? byHand(0, options_.methodRays, FitKind::automatic)
+                            : toTolerance(tolerance, method == "refined" ? FitKind::vertex : FitKind::automatic);
+      EqualTime::Cost cost;
+      const double error = errorOverSeeds(bake, [&] {
+        const EqualTime::Cost ofSeed = equalTime.of([&] { bakeOnce(bake); });
+        cost.seconds += ofSeed.seconds / options_.seeds;
+        cost.rays += ofSeed.rays / options_.seeds;
+      });
+      const double points = errorBetweenGroups(cost.rays, errorOfPoints);
+      std::printf(" %7.3f %7.3f %8.3fs %5.2f |", 100 * points, 100 * error, cost.seconds, error / points);
     }
     std::printf("\n");
     std::fflush(stdout);
@@ -114,12 +121,12 @@ class SurfaceBench {
   /// E^2 = (a I)^2 + b sigma^2, maths.md (33): I of point sampling with plenty of rays, a of the fit with as many, and
   /// b where the vertices' noise is nearest to I.
   void leftRow() {
-    const double missed = missedOf(bakeByHand(0, kPlentyOfRays, FitKind::vertex), 0.5);
-    const double left = missedOf(bakeByHand(0, kPlentyOfRays, FitKind::automatic), 0.4);
+    const double missed = missedOf(timed(byHand(0, kPlentyOfRays, FitKind::vertex), options_.samples), 0.5);
+    const double left = missedOf(timed(byHand(0, kPlentyOfRays, FitKind::automatic), options_.samples), 0.4);
     Trial few;
     double nearest = std::numeric_limits<double>::infinity();
     for (int rays = kLeastRays; rays <= kMostRays; rays *= 2) {
-      Trial t = bakeByHand(0, rays, FitKind::automatic);
+      Trial t = timed(byHand(0, rays, FitKind::automatic), options_.samples);
       const double distance = std::abs(std::log(t.bake.baked.facts.rmsError / missed));
       if (distance < nearest) {
         nearest = distance;
@@ -134,7 +141,7 @@ class SurfaceBench {
   }
 
   void toleranceRow(double tolerance) {
-    const Trial t = bakeTo(tolerance, FitKind::automatic);
+    const Trial t = timed(toTolerance(tolerance, FitKind::automatic), options_.samples);
     const TransferFacts& facts = t.bake.baked.facts;
     std::printf("%-24s %-14s %5.1f | %6.2f +-%4.2f %5.2f %-3s | %8zu %5d %8.2fM %7.2fs |", label_.c_str(),
                 transferName(kind_), 100 * tolerance, 100 * t.error.rms, 50 * (t.error.high - t.error.low),
@@ -158,12 +165,54 @@ class SurfaceBench {
     options.bake.kind = kind_;
     options.bake.order = options_.order;
     options.bake.rays = rays;
+    options.bake.seed = seed_;
     options.fit.kind = fit;
     return options;
   }
 
+  /// A way to bake, with the seed of the moment.
+  using Bake = std::function<AutoBake(Progress&)>;
+
+  Bake toTolerance(double tolerance, FitKind fit) {
+    AutoBakeOptions choose;
+    choose.tolerance = tolerance;
+    choose.refinement.kind = RefinementOptions::Kind::automatic;
+    return
+        [=, this](Progress& progress) { return autoBake(mesh_, {}, bakeOptions(0, fit), choose, parallel_, progress); };
+  }
+
+  /// Edges of `length`, or the mesh as it is where that is 0.
+  Bake byHand(double length, int rays, FitKind fit) {
+    AutoBakeOptions choose;
+    if (length > 0) {
+      choose.refinement.kind = RefinementOptions::Kind::length;
+      choose.refinement.length = length;
+    }
+    return [=, this](Progress& progress) {
+      return autoBake(mesh_, {}, bakeOptions(rays, fit), choose, parallel_, progress);
+    };
+  }
+
+  static void bakeOnce(const Bake& bake) {
+    Progress silent;
+    bake(silent);
+  }
+
+  /// The RMS over the seeds; `visit` is called with each of them.
+  double errorOverSeeds(
+      const Bake& bake, const std::function<void()>& visit = [] {}) {
+    double squares = 0;
+    for (int i = 0; i < options_.seeds; ++i) {
+      seed_ = kFirstSeed + static_cast<std::uint64_t>(i);
+      squares += std::pow(timed(bake, options_.samples).error.rms, 2) / options_.seeds;
+      visit();
+    }
+    seed_ = kFirstSeed;
+    return std::sqrt(squares);
+  }
+
   /// Bakes and takes the time, then judges.
-  Trial timed(const std::function<AutoBake(Progress&)>& bake, std::size_t samples) {
+  Trial timed(const Bake& bake, std::size_t samples) {
     Trial trial;
     bool counted = false;  // the rays of this stage, whose end may be told twice
     Progress progress([&](const ProgressState& state) {
@@ -185,48 +234,6 @@ class SurfaceBench {
     if (held.facts.rays > 0) held.facts.rays = options_.truthRays;
     Progress progress;
     return measureSurfaceError(held, samples, parallel_, progress);
-  }
-
-  Trial bakeTo(double tolerance, FitKind fit) {
-    AutoBakeOptions choose;
-    choose.tolerance = tolerance;
-    choose.refinement.kind = RefinementOptions::Kind::automatic;
-    return timed(
-        [&](Progress& progress) { return autoBake(mesh_, {}, bakeOptions(0, fit), choose, parallel_, progress); },
-        options_.samples);
-  }
-
-  /// Edges of `length`, or the mesh as it is where that is 0.
-  Trial bakeByHand(double length, int rays, FitKind fit, std::size_t samples = 0) {
-    AutoBakeOptions choose;
-    if (length > 0) {
-      choose.refinement.kind = RefinementOptions::Kind::length;
-      choose.refinement.length = length;
-    }
-    return timed(
-        [&](Progress& progress) { return autoBake(mesh_, {}, bakeOptions(rays, fit), choose, parallel_, progress); },
-        samples == 0 ? options_.samples : samples);
-  }
-
-  /// The time of point sampling is that of its rays and a rest.
-  void measurePointTime() {
-    const auto seconds = [&](int rays) {
-      return bakeByHand(0, rays, FitKind::vertex, SurfaceErrorOptions::kLeastSamples).seconds;
-    };
-    const double few = seconds(options_.methodRays), many = seconds(3 * options_.methodRays);
-    secondsPerRay_ = std::max(1e-9, (many - few) / (2 * options_.methodRays));
-    rest_ = std::max(0.0, few - options_.methodRays * secondsPerRay_);
-  }
-
-  /// The error of point sampling with as many rays as take that time. A bake takes whole groups of them: between two of
-  /// these the error is a power of the rays.
-  double errorOfPointsIn(double seconds) {
-    const double rays = std::clamp((seconds - rest_) / secondsPerRay_, double(kLeastRays), double(1 << 20));
-    constexpr int kGroup = DirectionSet::kGroup;
-    const int fewer = static_cast<int>(rays) / kGroup * kGroup;
-    const double before = bakeByHand(0, fewer, FitKind::vertex).error.rms;
-    const double after = bakeByHand(0, fewer + kGroup, FitKind::vertex).error.rms;
-    return before * std::pow(after / before, std::log(rays / fewer) / std::log(1 + double(kGroup) / fewer));
   }
 
   /// Tries edges from none on down, rays from few on up, with and without a fit, as far as the cost stays within reach
@@ -264,7 +271,7 @@ class SurfaceBench {
     s.length = level == 0 ? 0 : extentOf(mesh_) / (2 * std::pow(2, 0.5 * level));
     s.rays = rays;
     s.fit = fit;
-    const Trial t = bakeByHand(s.length, rays, fit, options_.sweepSamples);
+    const Trial t = timed(byHand(s.length, rays, fit), options_.sweepSamples);
     s.cost = t.cost();
     s.seconds = t.seconds;
     s.error = t.error.rms;
@@ -286,7 +293,7 @@ class SurfaceBench {
   Mesh mesh_;
   TransferKind kind_;
   Parallel parallel_;
-  double secondsPerRay_ = 0, rest_ = 0;  // of point sampling
+  std::uint64_t seed_ = kFirstSeed;
   std::map<std::tuple<int, int, FitKind>, std::pair<Setting, std::size_t>> settings_;
 };
 
@@ -321,8 +328,9 @@ void run(const Options& o) {
         "points "
         "with as many\n",
         o.order, o.methodRays, o.methodShare);
-    std::printf("%-24s %-14s %8s %6s | %-30s | %-30s | %-30s |\n", "mesh", "transfer", "vertices", "E %", "fit",
-                "refined", "auto");
+    std::printf("%-24s %-14s %8s %6s |", "mesh", "transfer", "vertices", "E %");
+    for (const std::string& method : o.methods) std::printf(" %-31s |", method.c_str());
+    std::printf("\n");
     each([](SurfaceBench& bench) { bench.methodsRow(); });
   }
   if (has("tolerances")) {
@@ -356,12 +364,16 @@ int main(int argc, char** argv) {
   app.add_option("meshes", o.meshes, "files or generated meshes; default: all");
   list(app.add_option("--tables", o.tables, "methods, tolerances, left")
            ->check(CLI::IsMember({"methods", "tolerances", "left"})));
+  list(app.add_option("--methods", o.methods, "columns of the table of methods: fit, refined, auto")
+           ->check(CLI::IsMember({"fit", "refined", "auto"})));
   list(app.add_option("--transfers", o.transfers, "shadowed, interreflected")
            ->check(CLI::IsMember({"shadowed", "interreflected"})));
   list(app.add_option("--tolerances", o.tolerances, "surface errors to reach"));
   app.add_option("--method-share", o.methodShare,
                  "tolerance of the methods that are told one, as a share of the error of point sampling");
   app.add_option("--method-rays", o.methodRays, "rays a vertex of the fit");
+  app.add_option("--seeds", o.seeds, "bakes of each method, over which errors are RMS and times means")
+      ->check(CLI::Range(1, 1000));
   app.add_option("--order", o.order, "SH bands");
   app.add_option("--samples", o.samples, "places where errors are measured, an even number");
   app.add_option("--sweep-samples", o.sweepSamples, "places where errors of settings by hand are measured");
