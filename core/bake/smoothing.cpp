@@ -2,7 +2,9 @@
 #include "bake/smoothing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "base/passes.h"
@@ -47,14 +49,17 @@ class Lacks {
         wanted_(wanted),
         baked_(baked),
         norm_(sh::unshadowedNorm(baked.order)),
-        values_(baked.coefficients.size()) {}
+        values_(baked.coefficients.size()),
+        variances_(points.size(), kUnusable) {}
 
   /// Finds what the points from `begin` to `end` lack.
   void find(std::size_t begin, std::size_t end) {
     const auto count = static_cast<std::size_t>(baked_.coefficientsPerChannel()), stride = baked_.stride();
     std::vector<double> open(count);
     for (std::size_t p = begin; p < end; ++p) {
-      if (!isUsable(p)) continue;
+      const Rgb& rho = points_.pointAlbedo[p];
+      if ((!wanted_.empty() && wanted_[p] == 0) || std::min({rho.x, rho.y, rho.z}) <= 0) continue;
+      variances_[p] = baked_.channels * std::pow(static_cast<double>(baked_.error[p]) * norm_, 2);
       sh::unshadowedTransfer(baked_.order, normalized(Vec3d(points_.pointNormal[p])), 1, open);
       for (std::size_t i = 0; i < stride; ++i) {
         const double sent = static_cast<double>(baked_.coefficients[p * stride + i]) / albedo(p, i / count);
@@ -69,22 +74,32 @@ class Lacks {
     const Rgb& a = points_.pointAlbedo[p];
     return static_cast<double>(channel == 0 ? a.x : channel == 1 ? a.y : a.z);
   }
-  bool isUsable(std::size_t p) const {
-    const Rgb& a = points_.pointAlbedo[p];
-    return (wanted_.empty() || wanted_[p] != 0) && std::min({a.x, a.y, a.z}) > 0;
-  }
+  bool isUsable(std::size_t p) const { return variances_[p] >= 0; }
   /// The stated variance of a row over all coefficients.
-  double variance(std::size_t p) const {
-    return baked_.channels * std::pow(static_cast<double>(baked_.error[p]) * norm_, 2);
-  }
+  double variance(std::size_t p) const { return variances_[p]; }
 
  private:
+  static constexpr double kUnusable = -1;
+
   const LightingPoints& points_;
   const std::vector<std::uint8_t>& wanted_;
   const TransferSet& baked_;
   double norm_;
   std::vector<float> values_;
+  std::vector<double> variances_;
 };
+
+/// |a - b|^2, in sums that do not wait for each other.
+double squaredDistance(std::span<const float> a, std::span<const float> b) {
+  constexpr std::size_t kSums = 8;
+  std::array<float, kSums> sums{};
+  std::size_t i = 0;
+  for (; i + kSums <= a.size(); i += kSums) {
+    for (std::size_t k = 0; k < kSums; ++k) sums[k] += (a[i + k] - b[i + k]) * (a[i + k] - b[i + k]);
+  }
+  for (; i < a.size(); ++i) sums[0] += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
 
 /// Smooths one point after another; one for each worker thread.
 class Smoother {
@@ -104,9 +119,11 @@ class Smoother {
       const double squaredError = lacks_.variance(ring_[k]) + kBiasWeight * std::max({0.0, bias_[k], meanBias_});
       // A neighbour without noise or bias would settle the matter alone, which only rounding can make of a noisy point.
       if (squaredError == 0) return;
-      weight += 1 / squaredError;
+      const double share = 1 / squaredError;
+      weight += share;
       const std::span<const float> lack = lacks_[ring_[k]];
-      for (std::size_t i = 0; i < mean_.size(); ++i) mean_[i] += static_cast<double>(lack[i]) / squaredError;
+      double* const mean = mean_.data();
+      for (std::size_t i = 0; i < lack.size(); ++i) mean[i] += share * static_cast<double>(lack[i]);
     }
     const auto count = static_cast<std::size_t>(baked_.coefficientsPerChannel());
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -118,19 +135,20 @@ class Smoother {
   /// Fills ring_ with the neighbours of `p`, bias_ with the squared differences to `p` that noise does not explain, and
   /// meanBias_ with the mean of these: a single one is noisy itself.
   void findRing(std::uint32_t p) {
-    ring_.assign(neighbours_[p].begin(), neighbours_[p].end());
-    std::sort(ring_.begin(), ring_.end());
-    ring_.erase(std::unique(ring_.begin(), ring_.end()), ring_.end());
-    std::erase_if(ring_, [&](std::uint32_t q) { return q == p || !lacks_.isUsable(q); });
+    ring_.clear();
+    for (const std::uint32_t q : neighbours_[p]) {
+      // Sorted, so that the sums do not depend on the order of the faces.
+      const auto at = std::lower_bound(ring_.begin(), ring_.end(), q);
+      if ((at == ring_.end() || *at != q) && q != p && lacks_.isUsable(q)) ring_.insert(at, q);
+    }
     const std::span<const float> own = lacks_[p];
     bias_.resize(ring_.size());
     meanBias_ = 0;
     for (std::size_t k = 0; k < ring_.size(); ++k) {
-      const std::span<const float> lack = lacks_[ring_[k]];
-      bias_[k] = -lacks_.variance(p) - lacks_.variance(ring_[k]);
-      for (std::size_t i = 0; i < own.size(); ++i) bias_[k] += std::pow(static_cast<double>(lack[i] - own[i]), 2);
-      meanBias_ += bias_[k] / static_cast<double>(ring_.size());
+      bias_[k] = squaredDistance(own, lacks_[ring_[k]]) - lacks_.variance(p) - lacks_.variance(ring_[k]);
+      meanBias_ += bias_[k];
     }
+    meanBias_ /= std::max(1.0, static_cast<double>(ring_.size()));
   }
 
   const TransferSet& baked_;
