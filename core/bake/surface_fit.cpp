@@ -1,4 +1,4 @@
-// The story of a fit: pilot, smoothing, decision, fit, choice. Equations (29) to (31) of maths.md.
+// The story of a fit: pilot, smoothing, decision, fit, choice. Equations (29) to (31) and (35) of maths.md.
 #include "bake/surface_fit.h"
 
 #include <algorithm>
@@ -7,6 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "bake/direction_set.h"
+#include "bake/fit_prospect.h"
 #include "bake/senders.h"
 #include "bake/smoothing.h"
 #include "bake/surface_fit_choice.h"
@@ -22,10 +24,11 @@ namespace {
 /// Samples of the pilot: errors that gather in a few spots, as contact shadows do, are seen by a few of 512, and a gain
 /// of a tenth is then not significant.
 constexpr std::size_t kPilotSamples = 2048;
-/// On small meshes that is more work than the bake. Glances for these shares of the bake's rays come first, with
-/// samples enough to tell at all: they end the matter where interpolation is surely good enough. Few samples of many
-/// rays show that best, for the noise of a squared error falls faster with the rays than with the samples.
-constexpr std::array kGlanceShares{0.05, 0.1};
+/// On small meshes that is more work than the bake. Glances for these shares of the bake's rays come first, with half
+/// its rays a place, and places enough to tell at all: fewer rays scatter more than as many more places mend, and every
+/// place costs its set-up. The error goes with rays^(-3/4): where a fit is of no use, looking for one makes a bake
+/// worse than rays in the same time by three quarters of these shares.
+constexpr std::array kGlanceShares{0.02, 0.03};
 constexpr double kLeastGlance = 32;
 /// Samples that judge a fit, for each lighting point, and the most of them.
 constexpr double kJudgeShare = 0.25;
@@ -38,8 +41,6 @@ constexpr int kRayShare = 4, kLeastRays = 32, kMostRays = 256;
 constexpr double kRidgeOfScatter = 0.4, kRidgeOfNoise = 2.0 / 3;
 /// The ratio of the noise to the error that the ridge follows: beyond it a fit changes next to nothing.
 constexpr double kMostNoise = 1e4;
-/// Relative errors up to this are the rounding of coefficients and normals to float.
-constexpr double kRounding = 1e-6;
 /// Places traced together.
 constexpr std::size_t kBatch = 1 << 20;
 /// The independent streams of random numbers, apart from those that measure the surface error.
@@ -81,8 +82,8 @@ class SurfaceFitter {
       return stop("the surface error is within the tolerance as it is");
     }
     if (options_.kind == FitKind::automatic) smooth(held);
-    if (const char* useless = whyUseless(before.mean, held)) {
-      report_.reason = useless;
+    if (useless_) {
+      report_.reason = useless_;
     } else {
       const std::size_t judges =
           std::min(kMostJudges, roundedToEven(kJudgeShare * static_cast<double>(measuredPoints_)));
@@ -122,18 +123,30 @@ class SurfaceFitter {
 
   std::uint64_t seed(std::uint64_t stream) const { return hashBits(bake_.seed, stream); }
 
-  /// The first glance that tells for sure that a fit is of no use; the pilot where none does.
+  /// The glances that tell that a fit is of no use, the last one as far as it can, others for sure; else the pilot.
   HeldOutSamples lookAround(PlaceTracer& tracer) {
-    const int rays = std::max(rays_, bake_.rays);
+    const double ownRays = static_cast<double>(measuredPoints_) * bake_.rays;
+    const FitProspect prospect(points_, areas_, baked_.error,
+                               static_cast<double>(options_.samplesPerPoint) * rays_ / bake_.rays);
+    // Where there is an error to meet, a pilot is cheaper than another bake.
+    const double pilotShare = options_.enough > 0 ? 0 : 2.0 * kPilotSamples * rays_ / ownRays;
+    const int rays = std::max(DirectionSet::kGroup, bake_.rays / 2);
+    std::vector<double> squares;  // of all glances
     for (std::size_t i = 0; i < kGlanceShares.size(); ++i) {
-      const double affordable = kGlanceShares[i] * static_cast<double>(measuredPoints_) * bake_.rays / (2.0 * rays);
-      const double count = std::max(kLeastGlance, affordable);
+      const double count = std::max(kLeastGlance, kGlanceShares[i] * ownRays / (2 * rays));
       if (count >= static_cast<double>(kPilotSamples)) break;
       HeldOutSamples held = holdOut(tracer, roundedToEven(count), rays, kGlance + i * kStreamsOfSamples);
-      const SampledMean before = held.squaredError(baked_.coefficients);
-      if (whyUseless(before.high(), held)) return held;
+      const std::vector<double> found = held.missedSquares(baked_.coefficients, baked_.error);
+      squares.insert(squares.end(), found.begin(), found.end());
+      const SampledMean missed = stratifiedMean(squares);
+      const bool isLast = i + 1 == kGlanceShares.size();
+      useless_ = prospect.whyUseless(isLast ? missed.mean : missed.high(), pilotShare);
+      if (useless_) return held;
+      if (!prospect.whyUseless(missed.low(), pilotShare)) break;
     }
-    return holdOut(tracer, kPilotSamples, rays_, kPilot);
+    HeldOutSamples held = holdOut(tracer, kPilotSamples, rays_, kPilot);
+    useless_ = prospect.whyUseless(stratifiedMean(held.missedSquares(baked_.coefficients, baked_.error)).mean, 0);
+    return held;
   }
 
   /// Places that have no part in the fit, each traced twice.
@@ -160,25 +173,21 @@ class SurfaceFitter {
     return taken;
   }
 
+  /// The pilot judges smoothing region by region. Where a glance ended the matter, its samples are too few for that,
+  /// and the weights of smoothing, which are those of least expected error, are trusted.
   void smooth(const HeldOutSamples& held) {
+    if (std::all_of(baked_.error.begin(), baked_.error.end(), [](float error) { return error == 0; })) return;
     const std::vector<float> smoothed = smoothedCoefficients(points_, wanted_, baked_, parallel_, progress_);
-    const RegionalShares shares = held.chooseShares(values_, smoothed);
+    const RegionalShares shares =
+        isPilot() ? held.chooseShares(values_, smoothed) : held.takeUnlessWorse(values_, smoothed);
     if (shares.takesAny()) report_.smoothedPoints = take(smoothed, shares);
   }
 
+  bool isPilot() const { return report_.heldOut >= kPilotSamples; }
+
   /// A glance does not tell: errors in a few spots, which it may miss, are what fits are for.
   bool isEnough(const SampledMean& before) const {
-    return options_.kind == FitKind::automatic && report_.heldOut >= kPilotSamples &&
-           before.high() <= options_.enough * options_.enough;
-  }
-
-  /// Why a fit cannot help, in words; null where it may. `before` is the squared error of the points as baked.
-  const char* whyUseless(double before, const HeldOutSamples& held) const {
-    if (options_.kind == FitKind::surface) return nullptr;
-    if (before <= kRounding * kRounding) return "interpolation between the vertices is exact";
-    const double noise = held.vertexNoise(baked_.error);
-    return before - noise <= noise ? "interpolation between the vertices errs less than the noise of the rays"
-                                   : nullptr;
+    return options_.kind == FitKind::automatic && isPilot() && before.high() <= options_.enough * options_.enough;
   }
 
   /// Draws the places to fit to: half of them by area, which is what the error counts, and half one face like another,
@@ -225,7 +234,7 @@ class SurfaceFitter {
     const double perPoint = static_cast<double>(places.size()) / static_cast<double>(measuredPoints_);
     // An error that drowns in the noise may be measured as none or less: what were removed then would be noise too.
     const double error = held.squaredError(values_).mean;
-    const double ofNoise = std::min(kMostNoise, held.noise() / std::max(error, kRounding * kRounding));
+    const double ofNoise = std::min(kMostNoise, held.noise() / std::max(error, std::pow(FitProspect::kRounding, 2)));
     report_.ridge = (kRidgeOfScatter + kRidgeOfNoise * ofNoise) / perPoint;
     std::vector<float> fitted = system.solve(report_.ridge, parallel_, progress_);
     for (std::size_t i = 0; i < fitted.size(); ++i) fitted[i] += values_[i];
@@ -255,6 +264,7 @@ class SurfaceFitter {
   std::vector<std::uint8_t> isMeasured_;
   std::size_t measuredFaces_ = 0, measuredPoints_ = 0;
   double totalArea_ = 0;
+  const char* useless_ = nullptr;  // why a fit cannot help
   FitReport report_;
 };
 

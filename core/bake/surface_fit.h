@@ -68,9 +68,10 @@ struct FitReport {
 /// points and options; only its coefficients change, and those of points that are not wanted do not. Its stated errors
 /// and visibility stay those of the points as they were traced: a fitted value is off from the transfer at the vertex
 /// on purpose, and `after` says how well it does.
-///   vertex: nothing is done. automatic: a pilot measures the surface error, stops where that is good enough, tries
-///   smoothing (smoothing.h), and stops where interpolation errs less than the noise of the rays, on small meshes at a
-///   glance; else values are fitted, and each region takes as much of the fit as the pilot's samples show to help.
+///   vertex: nothing is done. automatic: a pilot, on small meshes first a glance or two, measures what interpolation
+///   misses; where the pilot is sure that this is good enough, it stops. Values are smoothed (smoothing.h), and where
+///   interpolation errs too little beside the noise of the rays (fit_prospect.h) that is all; else values are fitted,
+///   and each region takes as much of the fit as samples that had no part in it show to help.
 ///   surface: values are fitted everywhere, unasked.
 /// Unshadowed transfer stays as it is. Deterministic: depends on points, options and seed only. Memory: about 16 bytes
 /// for each coefficient of the result, 600 a point, and for each sample in a batch of at most a million 150 and one row

@@ -94,7 +94,7 @@ void HeldOutSamples::interpolate(std::size_t sample, std::span<const float> coef
   }
 }
 
-SampledMean HeldOutSamples::squaredError(std::span<const float> coefficients) const {
+std::vector<double> HeldOutSamples::squares(std::span<const float> coefficients) const {
   std::vector<double> squares(places_.size(), 0), interpolated;
   for (std::size_t s = 0; s < places_.size(); ++s) {
     interpolate(s, coefficients, interpolated);
@@ -103,7 +103,22 @@ SampledMean HeldOutSamples::squaredError(std::span<const float> coefficients) co
       squares[s] += traced_.scale[s] * (interpolated[i] - double{one[i]}) * (interpolated[i] - double{other[i]});
     }
   }
-  return stratifiedMean(squares);
+  return squares;
+}
+
+SampledMean HeldOutSamples::squaredError(std::span<const float> coefficients) const {
+  return stratifiedMean(squares(coefficients));
+}
+
+std::vector<double> HeldOutSamples::missedSquares(std::span<const float> coefficients,
+                                                  const std::vector<float>& statedErrors) const {
+  std::vector<double> missed = squares(coefficients);
+  for (std::size_t s = 0; s < places_.size(); ++s) {
+    const SurfacePlace& place = places_[s];
+    const Triangle& corners = points_->facePoints[place.face];
+    for (std::size_t k = 0; k < 3; ++k) missed[s] -= std::pow(place.weights[k] * double{statedErrors[corners[k]]}, 2);
+  }
+  return missed;
 }
 
 double HeldOutSamples::noise() const {
@@ -112,15 +127,6 @@ double HeldOutSamples::noise() const {
     for (std::size_t i = s * stride_; i < (s + 1) * stride_; ++i) {
       sum += traced_.scale[s] * std::pow(double{traced_.sets[0][i]} - double{traced_.sets[1][i]}, 2) / 2;
     }
-  }
-  return sum / static_cast<double>(places_.size());
-}
-
-double HeldOutSamples::vertexNoise(const std::vector<float>& statedErrors) const {
-  double sum = 0;
-  for (const SurfacePlace& place : places_) {
-    const Triangle& corners = points_->facePoints[place.face];
-    for (std::size_t k = 0; k < 3; ++k) sum += std::pow(place.weights[k] * double{statedErrors[corners[k]]}, 2);
   }
   return sum / static_cast<double>(places_.size());
 }
@@ -171,6 +177,15 @@ RegionalShares HeldOutSamples::chooseShares(std::span<const float> from, std::sp
   }
   result.shares = drawTogether(regions, whole);
   return result;
+}
+
+RegionalShares HeldOutSamples::takeUnlessWorse(std::span<const float> from, std::span<const float> to) const {
+  double gained = 0;
+  for (std::size_t s = 0; s < places_.size(); ++s) {
+    const Gain g = gainOf(s, from, to);
+    gained += 2 * g.n - g.d2;
+  }
+  return {{0}, {gained >= 0 ? 1.0 : 0.0}};
 }
 
 }  // namespace shbake

@@ -37,15 +37,20 @@ class HeldOutSamples {
   /// The variance of one of the two sets, relative, as a mean over the samples.
   double noise() const;
 
-  /// The variance that interpolated transfer has from the stated errors of the vertices, relative.
-  double vertexNoise(const std::vector<float>& statedErrors) const;
+  /// What interpolation adds to that square at each place, two of each stratum: the square less what the stated errors
+  /// of the corners explain of it, which is free of what scatters because some places are noisier than others.
+  std::vector<double> missedSquares(std::span<const float> coefficients, const std::vector<float>& statedErrors) const;
 
   /// How much to take of the change from one set of coefficients to another, so that the error is least. Where gain is
   /// not significant over all samples, nothing; regions differ from the whole as far as their own samples can tell.
   RegionalShares chooseShares(std::span<const float> from, std::span<const float> to) const;
 
+  /// All of a change that is expected to help, unless these samples tell that it does not.
+  RegionalShares takeUnlessWorse(std::span<const float> from, std::span<const float> to) const;
+
  private:
   struct Gain;
+  std::vector<double> squares(std::span<const float> coefficients) const;
   Gain gainOf(std::size_t sample, std::span<const float> from, std::span<const float> to) const;
   void interpolate(std::size_t sample, std::span<const float> coefficients, std::vector<double>& out) const;
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "bake/fit_prospect.h"
 #include "bake/interpolation_error.h"
 #include "bake/surface_places.h"
 #include "base/error.h"
@@ -32,7 +33,7 @@ struct Left {
 constexpr Left kPlainLeft{1, 1, 0.5};
 /// The same where values are fitted or smoothed as samples tell; `bench_surface --tables left` measures 0.63 to 0.89
 /// and 0.06 to 0.55 on its scenes: near the upper ends, for a second bake costs more than the vertices that it saves.
-constexpr Left kFittedLeft{0.85, 0.63, 0.4};
+constexpr Left kFittedLeft{FitProspect::kUsuallyLeft, 0.63, 0.4};
 /// The error that the vertices may always have, in tolerances, however little interpolation leaves to them.
 constexpr double kLeastNoise = 0.45;
 /// A bake that may fail is worth trying where it takes this many times fewer rays than one that is not expected to.

@@ -130,7 +130,9 @@ TEST_CASE("what interpolates exactly is left alone, at the cost of a glance", "[
     CHECK(sameBits(fitted.before.coefficients, fitted.after.coefficients));
     CHECK(fitted.report.reason == "interpolation between the vertices is exact");
     CHECK(fitted.report.samples == 0);
-    CHECK(fitted.report.rays == std::max(32 * 2 * 64.0, 2 * 64 * std::ceil(0.05 / 2 * double(points.size()) / 2) * 2));
+    // Two sets of half the bake's rays, from 32 places or for a fiftieth of its rays.
+    const double places = std::max(32.0, 2 * std::ceil(0.02 * double(points.size()) / 2));
+    CHECK(fitted.report.rays == 2 * 32 * places);
     CHECK(fitted.report.after.rms < 1e-6);
   }
 }
@@ -157,6 +159,19 @@ TEST_CASE("where rays are few their noise is smoothed, not fitted", "[surface_fi
   CHECK(fitted.report.samples == 0);
   CHECK(fitted.report.smoothedPoints > points.size() / 2);
   CHECK(measure(points, fitted.after, bake).rms < measure(points, fitted.before, bake).rms);
+}
+
+TEST_CASE("to find a fit of no use takes a twentieth of the rays", "[surface_fit]") {
+  // Noise is all that matters in a smooth cavity at these rays. Its points are enough for two glances.
+  const LightingPoints points = pointsOf(shapes::openCavity(4, 0.08, 25));
+  for (const int rays : {32, 64, 256}) {
+    const Fitted fitted = bakeAndFit(points, optionsOf(TransferKind::shadowed, 3, rays), kindOf(FitKind::automatic));
+    INFO(rays << " rays, " << points.size() << " points: " << fitted.report.reason);
+    CHECK(fitted.report.samples == 0);
+    // Places come in pairs, with two sets of half the bake's rays each.
+    CHECK(fitted.report.rays <= 0.05 * rays * double(points.size()) + 2 * 2 * 2 * rays / 2);
+    CHECK(fitted.report.smoothedPoints > 0);
+  }
 }
 
 TEST_CASE("what is good enough as it is stays as it is", "[surface_fit]") {

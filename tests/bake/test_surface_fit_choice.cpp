@@ -1,4 +1,5 @@
 // Held-out samples: errors, noise and shares on made truth, where all is known.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -65,9 +66,19 @@ TEST_CASE("held-out samples see an offset through their noise, and tell the nois
   CHECK(error.error == Approx(expected).epsilon(4 / std::sqrt(4096.0)));
   // The mean of (a - b)^2 / 2, whose relative variance for two uniform variables is below 2.
   CHECK(held.noise() == Approx(noise * noise).epsilon(4 * std::sqrt(2.0 / 8192)));
-  // E[sum of w^2] = 1/2 over a triangle.
-  CHECK(held.vertexNoise(std::vector<float>(made.points().size(), 0.2f)) ==
-        Approx(0.04 / 2).epsilon(4 / std::sqrt(8192.0)));
+}
+
+TEST_CASE("what interpolation adds is told apart from the stated noise of the corners", "[surface_fit]") {
+  const double offset = 0.1;
+  const float stated = 0.2f;
+  const MadeTruth made(8192, 0, plane);
+  const HeldOutSamples held = made.held();
+  const auto values = made.values([&](const Vec3d& at) { return plane(at) + offset; });
+  const std::vector<double> missed = held.missedSquares(values, std::vector<float>(made.points().size(), stated));
+  // E[sum of w^2] = 1/2 over a triangle; it is 1/3 to 1.
+  CHECK(stratifiedMean(missed).mean ==
+        Approx(offset * offset - double{stated} * stated / 2).margin(4 * 0.04 * (2.0 / 3) / std::sqrt(8192.0)));
+  CHECK(*std::max_element(missed.begin(), missed.end()) <= offset * offset - 0.04 / 3 + 1e-6);
 }
 
 TEST_CASE("the share of a change is the best one", "[surface_fit]") {
