@@ -11,7 +11,7 @@
 namespace shbake::bench {
 namespace {
 
-constexpr double kTurnsSeconds = 0.5;
+constexpr double kTurnsSeconds = 2;
 
 double secondsOf(const std::function<void()>& run) {
   const double start = chart::cpuSeconds();

@@ -5,7 +5,7 @@
 
 namespace shbake::bench {
 
-/// Compares the CPU time of what is run with that of point sampling. Both take turns for half a second at least, and
+/// Compares the CPU time of what is run with that of point sampling. Both take turns for two seconds at least, and
 /// medians count: on a busy machine one bake tells less of its cost than of what runs beside it.
 class EqualTime {
  public:

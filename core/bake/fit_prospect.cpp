@@ -12,7 +12,7 @@ namespace {
 /// that. 0.4 to 0.8 were measured on spot, room and columns at 16 to 256 rays, where fits take 8 to 1 times as many.
 constexpr double kNoiseOfFit = 0.6;
 /// How often what looking costs counts: it is lost where it ends with no. Of 60 bakes of room.obj with 64 rays, where a
-/// fit gains nothing, 10 went on to a pilot at 2 and 2 at 4; of 60 with 256 rays, where it gains a tenth, 56 and 44.
+/// fit gains nothing, 8 went on to a pilot at 2 and 3 at 4; of 60 with 256 rays, where it gains a tenth, 43 and 32.
 constexpr double kCaution = 4;
 
 }  // namespace

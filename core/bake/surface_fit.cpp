@@ -29,7 +29,7 @@ constexpr std::size_t kPilotSamples = 2048;
 /// place costs its set-up. The error goes with rays^(-3/4): where a fit is of no use, looking for one makes a bake
 /// worse than rays in the same time by three quarters of these shares.
 constexpr std::array kGlanceShares{0.02, 0.03};
-constexpr double kLeastGlance = 32;
+constexpr double kLeastGlance = 24;
 /// Samples that judge a fit, for each lighting point, and the most of them.
 constexpr double kJudgeShare = 0.25;
 constexpr std::size_t kMostJudges = 16384;
@@ -173,8 +173,8 @@ class SurfaceFitter {
     return taken;
   }
 
-  /// The pilot judges smoothing region by region. Where a glance ended the matter, its samples are too few for that,
-  /// and the weights of smoothing, which are those of least expected error, are trusted.
+  /// The pilot judges smoothing region by region. The samples of a glance are too few for that: the weights of
+  /// smoothing, which are those of least expected error, are trusted unless they speak against it.
   void smooth(const HeldOutSamples& held) {
     if (std::all_of(baked_.error.begin(), baked_.error.end(), [](float error) { return error == 0; })) return;
     const std::vector<float> smoothed = smoothedCoefficients(points_, wanted_, baked_, parallel_, progress_);

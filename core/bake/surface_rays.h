@@ -30,7 +30,7 @@ struct RaySet {
 /// it lives, the places stand behind the points that it was given, of which nobody else must ask anything.
 class SurfaceRays {
  public:
-  /// Each set has all `directions`. `corners` are numbers of lighting points, each once, which tracePoints() looks
+  /// Each set has all `directions`. `corners` are numbers of lighting points, each once, which traceCorners() looks
   /// from. Of the options, `twoSided` and `maxDistance` count. References must outlive the object. Throws as FaceTree's
   /// constructor; cancelled by `progress`.
   SurfaceRays(TracedPoints& traced, std::span<const SurfacePlace> places, std::span<const std::uint32_t> corners,

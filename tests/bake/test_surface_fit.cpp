@@ -130,8 +130,8 @@ TEST_CASE("what interpolates exactly is left alone, at the cost of a glance", "[
     CHECK(sameBits(fitted.before.coefficients, fitted.after.coefficients));
     CHECK(fitted.report.reason == "interpolation between the vertices is exact");
     CHECK(fitted.report.samples == 0);
-    // Two sets of half the bake's rays, from 32 places or for a fiftieth of its rays.
-    const double places = std::max(32.0, 2 * std::ceil(0.02 * double(points.size()) / 2));
+    // Two sets of half the bake's rays, from 24 places or for a fiftieth of its rays.
+    const double places = std::max(24.0, 2 * std::ceil(0.02 * double(points.size()) / 2));
     CHECK(fitted.report.rays == 2 * 32 * places);
     CHECK(fitted.report.after.rms < 1e-6);
   }
