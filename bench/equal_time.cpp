@@ -1,3 +1,4 @@
+// Medians of CPU time, taken by turns.
 #include "equal_time.h"
 
 #include <algorithm>
