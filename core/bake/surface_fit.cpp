@@ -128,8 +128,9 @@ class SurfaceFitter {
     const double ownRays = static_cast<double>(measuredPoints_) * bake_.rays;
     const FitProspect prospect(points_, areas_, baked_.error,
                                static_cast<double>(options_.samplesPerPoint) * rays_ / bake_.rays);
-    // Where there is an error to meet, a pilot is cheaper than another bake.
-    const double pilotShare = options_.enough > 0 ? 0 : 2.0 * kPilotSamples * rays_ / ownRays;
+    // Where there is an error to meet, a pilot is cheaper than another bake: only who is sure does without.
+    const bool isToMeet = options_.enough > 0;
+    const double pilotShare = isToMeet ? 0 : 2.0 * kPilotSamples * rays_ / ownRays;
     const int rays = std::max(DirectionSet::kGroup, bake_.rays / 2);
     std::vector<double> squares;  // of all glances
     for (std::size_t i = 0; i < kGlanceShares.size(); ++i) {
@@ -139,7 +140,7 @@ class SurfaceFitter {
       const std::vector<double> found = held.missedSquares(baked_.coefficients, baked_.error);
       squares.insert(squares.end(), found.begin(), found.end());
       const SampledMean missed = stratifiedMean(squares);
-      const bool isLast = i + 1 == kGlanceShares.size();
+      const bool isLast = i + 1 == kGlanceShares.size() && !isToMeet;
       useless_ = prospect.whyUseless(isLast ? missed.mean : missed.high(), pilotShare);
       if (useless_) return held;
       if (!prospect.whyUseless(missed.low(), pilotShare)) break;
